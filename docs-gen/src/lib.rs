@@ -11,7 +11,6 @@ mod options;
 mod pages;
 mod printed;
 mod source;
-mod synonyms;
 mod tables;
 mod templates;
 pub mod view;
@@ -19,7 +18,6 @@ pub mod view;
 use od_spec::model::System;
 
 pub use files::{artifacts, dump_context, options};
-pub use language::LANGUAGES;
 pub use options::Options;
 pub use printed::{Difference, PrintedTable, TableIndex};
 pub use templates::markdown::escape as escape_markdown;

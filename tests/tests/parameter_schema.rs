@@ -7,8 +7,9 @@ use std::path::Path;
 
 use jsonschema::Validator;
 use od_import::parameters::{About, write};
+use od_reference::{parameter_schema, plant_schema_of};
+use od_spec::Commissioning;
 use od_spec::model::{Dictionary, System, TypeKind, Value};
-use od_spec::{Commissioning, parameter_schema, plant_schema_of};
 use od_tests::{compile_clean, compile_with_sources, root};
 
 #[path = "../shared/typed_yaml.rs"]

@@ -104,7 +104,7 @@ impl Source<'_> {
         let about = if unsaid.is_empty() {
             Cell::default()
         } else {
-            Cell::plain(self.word(Word::ErrorsUnsaid).replace("{n}", &unsaid))
+            Cell::plain(self.sentence(Word::ErrorsUnsaid, &unsaid))
         };
         let all = Table::unnumbered("errors-all", "errors", Cell::default(), vec![list]);
         vec![any, Table { about, ..all }]

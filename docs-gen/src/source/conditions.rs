@@ -119,7 +119,7 @@ impl TermPrinter<'_, '_> {
             }
             Term::Entry(entry) => self.operand(cell, entry),
             Term::Bit(entry, bit) => {
-                let words = self.source.word(Word::BitOf).replace("{n}", &bit.to_string());
+                let words = self.source.sentence(Word::BitOf, &bit.to_string());
                 self.operand(cell.text(format!("{words} ")), entry)
             }
             Term::Binary(left, ArithmeticOp::Subtract, right) if **left == Term::Number(Ratio::whole(0)) => {

@@ -4,6 +4,9 @@
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::LazyLock;
+
+use od_spec::wording::Language;
 
 use crate::view::Target;
 
@@ -42,47 +45,31 @@ enum Count {
 }
 
 /// The nouns in small letters.
-const NOUNS: [(&str, Numbered, Count); 20] = [
-    ("table", Numbered::Table, Count::One),
-    ("tables", Numbered::Table, Count::Many),
-    ("tabelle", Numbered::Table, Count::One),
-    ("tabellen", Numbered::Table, Count::Many),
-    ("figure", Numbered::Figure, Count::One),
-    ("figures", Numbered::Figure, Count::Many),
-    ("abbildung", Numbered::Figure, Count::One),
-    ("abbildungen", Numbered::Figure, Count::Many),
-    ("bild", Numbered::Figure, Count::One),
-    ("bilder", Numbered::Figure, Count::Many),
-    ("bildern", Numbered::Figure, Count::Many),
-    ("section", Numbered::Section, Count::One),
-    ("sections", Numbered::Section, Count::Many),
-    ("chapter", Numbered::Section, Count::One),
-    ("chapters", Numbered::Section, Count::Many),
-    ("abschnitt", Numbered::Section, Count::One),
-    ("abschnitts", Numbered::Section, Count::One),
-    ("abschnitte", Numbered::Section, Count::Many),
-    ("abschnitten", Numbered::Section, Count::Many),
-    ("kapitel", Numbered::Section, Count::Either),
-];
+static NOUNS: LazyLock<Vec<(&str, Numbered, Count)>> = LazyLock::new(|| {
+    let nouns = [
+        ("table", Numbered::Table, Count::One),
+        ("tables", Numbered::Table, Count::Many),
+        ("figure", Numbered::Figure, Count::One),
+        ("figures", Numbered::Figure, Count::Many),
+        ("section", Numbered::Section, Count::One),
+        ("sections", Numbered::Section, Count::Many),
+        ("section_or_sections", Numbered::Section, Count::Either),
+    ];
+    let words = |(key, kind, count)| Language::words_of_all(key).map(move |noun| (noun, kind, count));
+    nouns.into_iter().flat_map(words).collect()
+});
 /// What stands before the last number of a list, or between the ends of a run.
-const JOINTS: [&str; 10] = [" and ", " und ", " or ", " oder ", " to ", " bis ", ", and ", ", or ", "–", "-"];
+static JOINTS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let words = ["and", "or", "to"].into_iter().flat_map(Language::words_of_all);
+    let spaced = words.flat_map(|word| [format!(" {word} "), format!(", {word} ")]);
+    spaced.chain(["–".to_owned(), "-".to_owned()]).collect()
+});
 /// How the names of standards begin; a number follows.
 const STANDARDS: [&str; 9] = ["CiA", "DSP", "DS", "IEC", "ISO", "EN", "DIN", "IEEE", "RFC"];
 /// What leads from a number to the document that has it.
-const OF: [&str; 10] = ["of", "in", "from", "the", "an", "aus", "von", "der", "des", "dem"];
+static OF: LazyLock<Vec<&str>> = LazyLock::new(|| Language::words_of_all("of").collect());
 /// Other documents, in small letters: a standard, or another issue of the manual.
-const OTHERS: [&str; 10] = [
-    "standard",
-    "standards",
-    "norm",
-    "issue",
-    "edition",
-    "revision",
-    "version",
-    "ausgabe",
-    "auflage",
-    "fassung",
-];
+static OTHERS: LazyLock<Vec<&str>> = LazyLock::new(|| Language::words_of_all("other_documents").collect());
 
 /// The numbers in a text that are not those of another document, in order.
 pub(crate) fn found(text: &str) -> Vec<Mention<'_>> {
@@ -117,7 +104,7 @@ fn noun_before(text: &str, end: usize) -> Option<(usize, Numbered, Count)> {
     if before.ends_with(|sign: char| sign.is_alphanumeric() || matches!(sign, '-' | '_')) {
         return None;
     }
-    let (_, kind, count) = NOUNS.into_iter().find(|(noun, ..)| *noun == word)?;
+    let (_, kind, count) = NOUNS.iter().copied().find(|(noun, ..)| *noun == word)?;
     Some((before.len(), kind, count))
 }
 
@@ -154,10 +141,9 @@ fn is_joined(text: &str) -> bool {
 /// The next number of a list, behind the last one.
 fn next_number(text: &str, end: usize, kind: Numbered, count: Count) -> Option<Range<usize>> {
     let behind = &text[end..];
-    if let Some(number) = JOINTS
-        .into_iter()
-        .find_map(|joint| behind.starts_with(joint).then(|| number_at(text, end + joint.len(), kind))?)
-    {
+    if let Some(number) = JOINTS.iter().find_map(|joint| {
+        behind.starts_with(joint.as_str()).then(|| number_at(text, end + joint.len(), kind))?
+    }) {
         // `Kapitel 2 und 3 Objekte` counts objects.
         let counts = count == Count::Either
             && text[number.end..].strip_prefix(' ').is_some_and(|word| word.starts_with(char::is_uppercase));
@@ -168,7 +154,7 @@ fn next_number(text: &str, end: usize, kind: Numbered, count: Count) -> Option<R
     // `Tables 30 and 31, 5 of them` counts, too.
     let is_of_list = text[number.clone()].contains('.')
         || !rest.starts_with(' ')
-        || JOINTS.iter().any(|joint| rest.starts_with(joint));
+        || JOINTS.iter().any(|joint| rest.starts_with(joint.as_str()));
     is_of_list.then_some(number)
 }
 

@@ -17,7 +17,7 @@ use od_spec::model::{
     BitErrors, BitField, Departure, Devices, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace,
     Fact, Index, Object, Part, Storage, System, SystemSource, Text, TypeKind,
 };
-use od_spec::wording::Wording;
+use od_spec::wording::{self, Wording, filled};
 
 use crate::language::{Language, Word};
 use crate::options::Options;
@@ -119,7 +119,9 @@ impl<'a> Source<'a> {
     pub(crate) fn new(system: &'a System, options: &'a Options) -> Self {
         let is_chosen = |device: &&Dictionary| options.devices.includes(&device.key);
         let devices: Vec<&Dictionary> = system.devices.iter().filter(is_chosen).collect();
-        let language = Language { code: options.language.as_deref().unwrap_or_else(|| system.language()) };
+        let code = options.language.as_deref().unwrap_or_else(|| system.language());
+        let words = options.words.unwrap_or_else(|| wording::Language::of(code));
+        let language = Language { code, words };
         let outline = Outline::of(system);
         let mut source = Self {
             system,
@@ -277,6 +279,11 @@ impl<'a> Source<'a> {
     /// A fixed word.
     pub(crate) fn word(&self, word: Word) -> &'static str {
         self.language.word(word)
+    }
+
+    /// A fixed sentence with what differs.
+    pub(crate) fn sentence(&self, word: Word, part: &str) -> String {
+        filled(self.word(word), &[part])
     }
 
     /// A text of the specification, in which each index of an object shown is a link, and each number of a table, figure or section.

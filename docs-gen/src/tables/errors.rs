@@ -190,7 +190,7 @@ impl Source<'_> {
         let mut devices = self.devices.iter().copied().chain(&self.system.devices);
         let Some(device) = devices.find(its_device) else { return cell };
         let words = self.word(Word::ChosenBy);
-        let (before, behind) = words.split_once("{n}").unwrap_or((words, ""));
+        let (before, behind) = words.split_once("{1}").unwrap_or((words, ""));
         cell.line().text(before).and(self.named_entry(device, id)).text(behind)
     }
 

@@ -211,8 +211,12 @@ mod tests {
     #[test]
     fn a_text_in_another_language_is_marked() {
         let text = Text::new([("en", "lamp")]);
-        let language =
-            |code| Cell::words(&text, Language { code }).parts().next().map(|part| part.language.to_owned());
+        let language = |code| {
+            Cell::words(&text, Language { code, words: od_spec::wording::Language::of(code) })
+                .parts()
+                .next()
+                .map(|part| part.language.to_owned())
+        };
         assert_eq!(language("en").as_deref(), Some(""));
         assert_eq!(language("de").as_deref(), Some("en"));
     }

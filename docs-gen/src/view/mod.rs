@@ -32,7 +32,7 @@ pub struct Context {
     /// Fixed words by name, in that language.
     pub words: BTreeMap<&'static str, &'static str>,
     /// Phrases that a search takes for one another.
-    pub synonyms: Vec<&'static [&'static str]>,
+    pub synonyms: Vec<Vec<&'static str>>,
     /// Whether a printed manual shows where it differs from the issue that it takes the place of.
     pub errata: bool,
     /// The system.

@@ -1,15 +1,49 @@
 //! The nodes that a command line names.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use clap::Args;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{Dictionary, EntryId, Index, SubIndex, System, Value};
 use od_spec::visible::visible;
 
-use super::args::NodesArgs;
-use super::report::{Report, node_id};
-use super::{ERRORS, plant, specs};
+use crate::exit::ERRORS;
+use crate::plant_file;
+use crate::report::{Report, node_id};
+use crate::specs;
+
+/// Which nodes there are, and by which specifications.
+#[derive(Debug, Args)]
+pub(crate) struct NodesArgs {
+    /// Specifications, EDS, DCF, XDD or XDC files of the nodes [default: the only `*.od.yaml` of the current directory]
+    #[arg(value_name = "SPEC")]
+    pub specs: Vec<PathBuf>,
+
+    /// A node: its node-ID, or `ID=KEY` with the key of its device; can be given several times [default: those of the DCFs]
+    #[arg(long, value_name = "ID[=KEY]")]
+    pub node: Vec<String>,
+
+    /// Key of the device of nodes that name none [default: the only one]
+    #[arg(long, value_name = "KEY")]
+    pub device: Option<String>,
+
+    /// Where SPEC is a plant file: the machine, by name or number, whose nodes they are, as the plant sets them [default: the only one]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["node", "device"])]
+    pub machine: Option<String>,
+
+    /// The site of the machine [default: that of the only machine with this name]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["node", "device"])]
+    pub site: Option<String>,
+}
+
+impl NodesArgs {
+    /// Whether no node is meant, and no file.
+    pub(crate) const fn names_nothing(&self) -> bool {
+        let Self { specs, node, device, machine, site } = self;
+        specs.is_empty() && node.is_empty() && device.is_none() && machine.is_none() && site.is_none()
+    }
+}
 
 /// Where a device tells its serial number.
 const SERIAL_NUMBER: EntryId = EntryId { index: Index(0x1018), sub: SubIndex(4) };
@@ -38,7 +72,7 @@ impl BusNodes {
     pub(crate) fn read(args: &NodesArgs, directory: &Path, report: &Report) -> Result<Self, u8> {
         if args.machine.is_some()
             || args.site.is_some()
-            || args.specs.iter().any(|path| plant::names_plant(path))
+            || args.specs.iter().any(|path| plant_file::names_plant(path))
         {
             return Self::of_machine(args, report);
         }
@@ -105,12 +139,12 @@ impl BusNodes {
                 "choose a machine with `--machine`, in place of `--node` and `--device`",
             ));
         }
-        if path.is_file() && !plant::names_plant(path) {
+        if path.is_file() && !plant_file::names_plant(path) {
             let help = "name a plant file, or the nodes of a specification with `--node ID=KEY`";
-            return Err(report.refuse(plant::no_plant(path, help)));
+            return Err(report.refuse(plant_file::no_plant(path, help)));
         }
-        let plant::Read { plant, settled, .. } = plant::read(path, report)?;
-        let machine = plant::machine(&plant, args.site.as_deref(), args.machine.as_deref())
+        let plant_file::Read { plant, settled, .. } = plant_file::read(path, report)?;
+        let machine = plant_file::machine(&plant, args.site.as_deref(), args.machine.as_deref())
             .map_err(|diagnostic| report.refuse(*diagnostic))?;
         let mut found = Self { systems: Vec::new(), nodes: Vec::new() };
         for node in plant.nodes.get(machine.nodes.clone()).unwrap_or_default() {

@@ -1,81 +1,162 @@
 //! `odgen`: checks specifications of CANopen object dictionaries and makes files from them.
 
-mod args;
-mod build;
 mod bus_nodes;
-mod check;
-mod concise;
-mod dbc;
-mod dcf;
-mod decode;
-mod diff;
-mod docs;
-mod errata;
-mod fix;
-mod fmt;
-mod git;
-mod import;
+mod commands;
+mod exit;
 mod interrupt;
 mod language;
 mod link;
 mod listing;
-mod lsp;
-mod new;
-mod node;
+mod messages;
 mod output;
 mod parallel;
-mod params;
-mod plant;
+mod plant_file;
 mod progress;
 mod report;
-mod serve;
 mod settings;
 mod specs;
-mod st;
 mod templates;
 
 use std::io::Write as _;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use args::{CheckFormat, Cli, Command};
-use clap::{CommandFactory as _, Parser as _};
-use od_spec::diag::{Code, Diagnostic, codes};
-use od_spec::visible::visible;
+use clap::{CommandFactory as _, Parser, Subcommand};
+
+use commands::{
+    build, check, completions, concise, dbc, dcf, decode, diff, docs, dump, errata, explain, fix, fmt,
+    import, library, lsp, new, node, params, plant, reference, schema, serve, st,
+};
+use messages::{Color, Format};
+use report::Report;
 
 /// The work of the command is many small pieces of memory, given back in bulk.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// The input is without errors, and what was to be written is.
-const SUCCESS: u8 = 0;
-/// Errors in the input, or output that could not be written.
-const ERRORS: u8 = 1;
-/// The command line cannot be understood.
-const USAGE: u8 = 2;
-/// `odgen diff --exit-code` found what it looked for, or `odgen node compare` a difference.
-const DIFFERS: u8 = 3;
+/// Checks CANopen object dictionaries – specifications, EDS, DCF, XDD and XDC files – and makes EDS, DCF, XDD, JSON, Rust and documents from them.
+#[derive(Debug, Parser)]
+#[command(
+    name = "odgen",
+    version,
+    after_help = "Exit codes: 0 fine, 1 errors in the input or output not written, 2 wrong command line, \
+                  3 what `odgen diff --exit-code` looks for, or `odgen node compare` finds.\n\
+                  `odgen explain OD0507` tells more about a message; `odgen reference` describes the language."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+
+    /// How messages are written
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+
+    /// Directory whose `*.od.yaml` are taken when no SPEC is named
+    #[arg(long = "specs", global = true, default_value = ".", hide_default_value = true, value_name = "DIR")]
+    directory: PathBuf,
+
+    /// Colours in messages
+    #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
+    color: Color,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Make the files of a specification: EDS of each device and the JSON dump; all of them or, on an error, none
+    Build(build::BuildArgs),
+    /// Check specifications, EDS, DCF, XDD and XDC files without writing anything
+    Check(check::CheckArgs),
+    /// Look into a concise DCF, the binary that a CANopen master downloads to a node (object 1F22h)
+    Concise(concise::ConciseArgs),
+    /// Make the DBC of the nodes of a bus, for trace and test tools: PDOs and services as messages, with units, names of values and bits
+    Dbc(dbc::DbcArgs),
+    /// Make the DCF of one node, with parameter values of your own
+    Dcf(dcf::DcfArgs),
+    /// Tell what the frames of a recorded trace say: services, entries and values in units, states, errors
+    Decode(decode::DecodeArgs),
+    /// Tell what differs between two dictionaries, and what each change breaks
+    Diff(diff::DiffArgs),
+    /// Print the resolved model as JSON
+    Dump(dump::DumpArgs),
+    /// Make the reference documentation: the manual's tables and a reference of all objects, as Markdown or HTML
+    Docs(docs::DocsArgs),
+    /// List where the printed manual says something else than the specification
+    Errata(errata::ErrataArgs),
+    /// Make a specification of an EDS, DCF, XDD or XDC
+    Import(import::ImportArgs),
+    /// Put right what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
+    Fix(fix::FixArgs),
+    /// Lay out specifications: indentation and blanks; comments, order and facts stay
+    Fmt(fmt::FmtArgs),
+    /// Serve an editor: the Language Server Protocol on standard input and output
+    Lsp(lsp::LspArgs),
+    /// Write a commented specification to start from
+    New(new::NewArgs),
+    /// Talk to nodes on a bus, by an adapter with SLCAN (TCP or serial) or a CAN interface
+    Node(node::NodeArgs),
+    /// Make a parameter file of a DCF: the values that differ from the defaults, by name and in units
+    Params(params::ParamsArgs),
+    /// Work on a plant file: the nodes of many machines, with values inherited from type, site and machine
+    Plant(plant::PlantArgs),
+    /// Be nodes on a bus, without hardware, for whoever comes by SLCAN (TCP or a pseudo-terminal) or a CAN interface
+    Serve(serve::ServeArgs),
+    /// Make Structured Text (IEC 61131-3) for PLC programs: constants, enums, bits, conversions to units and back, PDOs
+    St(st::StArgs),
+    /// Tell what a message code means and what to do about it
+    Explain(explain::ExplainArgs),
+    /// Print a library of standard objects, or the names of all
+    Library(library::LibraryArgs),
+    /// Print the language reference (Markdown)
+    Reference,
+    /// Print the JSON Schema of the language, or of the parameter files of a device, for editors
+    Schema(schema::SchemaArgs),
+    /// Print a completion script for a shell
+    Completions(completions::CompletionsArgs),
+}
+
+impl Cli {
+    /// How messages are written, wherever it was said.
+    fn message_format(&self) -> Format {
+        let behind = match &self.command {
+            Command::Build(args) => args.messages.format,
+            Command::Check(args) => args.format.map(check::CheckFormat::of_messages),
+            Command::Dbc(args) => args.messages.format,
+            Command::Dcf(args) => args.messages.format,
+            Command::Decode(args) => args.messages.format,
+            Command::Dump(args) => args.messages.format,
+            Command::Errata(args) => args.messages.format,
+            Command::Import(args) => args.messages.format,
+            Command::Fix(args) => args.messages.format,
+            Command::Fmt(args) => args.messages.format,
+            Command::New(args) => args.messages.format,
+            Command::Node(args) => args.command.message_format(),
+            Command::Params(args) => args.messages.format,
+            Command::Plant(args) => args.command.message_format(),
+            Command::Serve(args) => args.messages.format,
+            Command::St(args) => args.messages.format,
+            _ => None,
+        };
+        behind.or(self.format).unwrap_or_default()
+    }
+}
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(message) => return ExitCode::from(answer(&message)),
     };
-    let report = report::Report::new(cli.message_format().into(), cli.color);
+    let report = Report::new(cli.message_format(), cli.color);
     let (format, directory) = (cli.format, cli.directory.as_path());
     let code = match cli.command {
         Command::Build(args) => build::run(&args, directory, &report),
-        Command::Check(args) => {
-            let format = args.format.or(format.map(CheckFormat::from)).unwrap_or(CheckFormat::Human);
-            check::run(&args, format, directory, &report)
-        }
+        Command::Check(args) => check::run(&args, format, directory, &report),
         Command::Concise(args) => concise::run(&args, directory, &report),
         Command::Dbc(args) => dbc::run(&args, directory, &report),
         Command::Dcf(args) => dcf::run(&args, directory, &report),
         Command::Decode(args) => decode::run(&args, directory, &report),
         Command::Diff(args) => diff::run(&args, cli.color, &report),
         Command::Docs(args) => docs::run(&args, directory, &report),
-        Command::Dump(args) => dump(&args, directory, &report),
+        Command::Dump(args) => dump::run(&args, directory, &report),
         Command::Errata(args) => errata::run(&args, directory, &report),
         Command::Import(args) => import::run(&args, &report),
         Command::Fix(args) => fix::run(&args, &report),
@@ -87,15 +168,11 @@ fn main() -> ExitCode {
         Command::Plant(args) => plant::run(&args, &report),
         Command::Serve(args) => serve::run(&args, directory, &report),
         Command::St(args) => st::run(&args, directory, &report),
-        Command::Explain { code } => explain(&code),
-        Command::Library { name } => library(name.as_deref(), &report),
-        Command::Reference => report::print(&od_spec::reference()),
-        Command::Schema(args) => schema(&args, &report),
-        Command::Completions { shell } => {
-            let mut text = Vec::new();
-            clap_complete::generate(shell, &mut Cli::command(), "odgen", &mut text);
-            report::print(&String::from_utf8_lossy(&text))
-        }
+        Command::Explain(args) => explain::run(&args),
+        Command::Library(args) => library::run(&args, &report),
+        Command::Reference => reference::run(),
+        Command::Schema(args) => schema::run(&args, &report),
+        Command::Completions(args) => completions::run(&args, &mut Cli::command()),
     };
     ExitCode::from(code)
 }
@@ -104,72 +181,6 @@ fn main() -> ExitCode {
 fn answer(message: &clap::Error) -> u8 {
     match message.print().and_then(|()| std::io::stdout().flush()) {
         Err(error) if !message.use_stderr() => report::not_printed(&error),
-        _ => u8::try_from(message.exit_code()).unwrap_or(USAGE),
-    }
-}
-
-fn dump(args: &args::DumpArgs, directory: &Path, report: &report::Report) -> u8 {
-    let spec = match specs::one(args.spec.as_deref(), directory, report) {
-        Ok(spec) => spec,
-        Err(code) => return code,
-    };
-    let Some((used, _)) = report.compile_with_sources(&spec) else { return ERRORS };
-    let node = used.stated_node();
-    let system = used.system;
-    if let Err(code) = args.device.iter().try_for_each(|key| report.device(&system, key).map(drop)) {
-        return code;
-    }
-    let dump = match node {
-        Some(node) => od_formats::json::dump_node(&system, &args.device, &node),
-        None => od_formats::json::dump(&system, &args.device),
-    };
-    report::print_json(&dump)
-}
-
-fn schema(args: &args::SchemaArgs, report: &report::Report) -> u8 {
-    if let Some(files) = &args.plant {
-        return plant::schema(files, report);
-    }
-    let Some(spec) = &args.params else { return report::print(&od_spec::json_schema()) };
-    let Some(system) = report.compile(spec) else { return ERRORS };
-    match report.device_or_only(&system, args.device.as_deref()) {
-        Ok(device) => report::print_json(od_spec::parameter_schema(&system, device).as_bytes()),
-        Err(code) => code,
-    }
-}
-
-fn library(name: Option<&str>, report: &report::Report) -> u8 {
-    let names = od_spec::LIBRARIES.iter().map(|(name, _)| *name);
-    let Some(name) = name else {
-        return report::print(&(names.collect::<Vec<_>>().join("\n") + "\n"));
-    };
-    match od_spec::LIBRARIES.iter().find(|(known, _)| *known == name) {
-        Some((_, text)) => report::print(text),
-        None => report.refuse(
-            Diagnostic::without_place(codes::UNKNOWN_WORD, format!("found `{name}`, expected a library"))
-                .help(format!("the libraries are {}", names.collect::<Vec<_>>().join(", "))),
-        ),
-    }
-}
-
-fn explain(id: &str) -> u8 {
-    if id.eq_ignore_ascii_case("all") {
-        let line = |code: &Code| format!("{code}  {:7}  {}\n", code.severity.word(), code.title);
-        return report::print(&od_spec::all_codes().into_iter().map(line).collect::<String>());
-    }
-    match od_spec::code(id) {
-        Some(code) => report::print(&format!(
-            "{code} ({}): {}\n\n{}",
-            code.severity.word(),
-            code.title,
-            od_spec::explanation(code)
-        )),
-        None => {
-            let id = visible(id);
-            anstream::eprintln!(
-                "error: there is no code `{id}`; codes look like `OD0301`, `odgen explain all` lists them"
-            );
-            USAGE
-        }
+        _ => u8::try_from(message.exit_code()).unwrap_or(exit::USAGE),
     }
 }

@@ -8,7 +8,7 @@ use od_gen::Artifact;
 use od_gen::files::{Existing, Outcome, Reason, WriteError, write_durable, write_set};
 use od_spec::diag::{Diagnostic, codes};
 
-use super::report::{Report, print, shown};
+use crate::report::{Report, print, shown};
 
 /// Writes the files and prints `summary`, then their list.
 pub(crate) fn write(out: &Path, set: &[Artifact], existing: Existing, summary: &str, report: &Report) -> u8 {
@@ -81,4 +81,26 @@ fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {
     let changed = outcomes.iter().filter(|outcome| **outcome == Outcome::Changed).count();
     let _ = writeln!(text, "  {changed} files changed, {} unchanged", outcomes.len() - changed);
     text
+}
+
+/// The name of the file to write, which is none of those that were read.
+pub(crate) fn file_name(path: &Path, what: &str, read: &[PathBuf]) -> Result<String, Diagnostic> {
+    let refuse = |problem: &str, help: &str| {
+        let message = format!("cannot write `{}`: {problem}", path.display());
+        Err(Diagnostic::without_place(codes::WRITE_FAILED, message).help(help.to_owned()))
+    };
+    let Some(name) = path.file_name() else {
+        return refuse("it names no file", "write the file's name behind the directory");
+    };
+    let Some(name) = name.to_str() else {
+        return refuse("its name is not Unicode", "choose another name");
+    };
+    let same = |file: &PathBuf| match (fs::canonicalize(path), fs::canonicalize(file)) {
+        (Ok(target), Ok(file)) => target == file,
+        _ => false,
+    };
+    if read.iter().any(same) {
+        return refuse(&format!("{what} is made from this file"), "write it to another file");
+    }
+    Ok(name.to_owned())
 }

@@ -2,8 +2,6 @@
 
 use std::io::{IsTerminal as _, Stderr, Write};
 
-use crate::args::CheckFormat;
-
 /// Who reads what a command says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Audience {
@@ -11,16 +9,6 @@ pub(crate) enum Audience {
     People,
     /// Programs, which want nothing beside the messages.
     Programs,
-}
-
-impl Audience {
-    /// Who reads messages in a format.
-    pub(crate) const fn of(format: CheckFormat) -> Self {
-        match format {
-            CheckFormat::Human | CheckFormat::Short => Self::People,
-            CheckFormat::Json | CheckFormat::Sarif | CheckFormat::Github => Self::Programs,
-        }
-    }
 }
 
 /// Back to the first column, and nothing behind it.

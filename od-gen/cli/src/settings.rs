@@ -1,15 +1,14 @@
 //! Settings of `odgen dcf`: parameter files, lists of settings, and the command line.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use od_gen::source::open;
 use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::model::{Dictionary, System};
-use od_spec::source::{SourceMap, Spanned};
+use od_spec::source::SourceMap;
 use od_spec::{Commissioning, Layer, ParameterFile, parameter_file};
 
-use super::args::DcfArgs;
-use super::report::{Report, shown};
+use crate::report::{Report, shown};
 
 /// Parameter files, each a layer over those before it.
 pub(crate) struct ParameterFiles {
@@ -82,43 +81,4 @@ impl ParameterFiles {
     pub(crate) fn into_layers(self) -> Vec<Layer> {
         self.files.into_iter().map(|(_, file)| file.layer).collect()
     }
-}
-
-/// The layer of the command line: settings of lists first, each with its place, and what may be set although it is locked.
-pub(crate) fn layer(
-    args: &DcfArgs,
-    sources: &mut SourceMap,
-    diagnostics: &mut Diagnostics,
-) -> Result<Layer, Box<Diagnostic>> {
-    let mut settings = Vec::new();
-    for path in &args.set_file {
-        settings.extend(of_file(path, sources)?);
-    }
-    let mut of_option = |option: &str, text: &String| {
-        let id = sources.add(option, text.as_str());
-        Spanned::new(text.clone(), sources.whole(id))
-    };
-    settings.extend(args.settings.iter().map(|setting| of_option("--set", setting)));
-    let mut layer = Layer::of(od_spec::settings(&settings, diagnostics));
-    layer.unlocked = args.unlock.iter().map(|name| of_option("--unlock", name)).collect();
-    Ok(layer)
-}
-
-/// One setting on each line. Behind a value there is no comment: it would be a part of a text.
-fn of_file(path: &Path, sources: &mut SourceMap) -> Result<Vec<Spanned<String>>, Box<Diagnostic>> {
-    let help = "check the path; a file of settings has one `ENTRY=VALUE` on each line";
-    let id = open(path, help, sources)?;
-    let (whole, text) = (sources.whole(id), sources.file(id).text());
-    let mut settings = Vec::new();
-    let mut start = 0;
-    for line in text.split_inclusive('\n') {
-        let end = start + line.trim_end_matches(['\n', '\r']).len();
-        let begin = start + (line.len() - line.trim_start().len());
-        let setting = text.get(begin..end).unwrap_or_default();
-        if !setting.is_empty() && !setting.starts_with('#') {
-            settings.push(Spanned::new(setting.to_owned(), whole.part(begin, end)));
-        }
-        start += line.len();
-    }
-    Ok(settings)
 }

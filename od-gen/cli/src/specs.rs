@@ -8,8 +8,8 @@ use od_spec::eds::has_eds_name;
 use od_spec::visible::visible;
 use od_spec::xdd::has_xdd_name;
 
-use super::USAGE;
-use super::report::{Report, shown};
+use crate::exit::USAGE;
+use crate::report::{Report, shown};
 
 /// The specifications of a command line that may name several: those it names, or all of `directory`, by name. The exit
 /// code after a message when there are none.

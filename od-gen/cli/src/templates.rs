@@ -3,13 +3,33 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
 use docs_gen::{TemplateError, Templates};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::SourceMap;
 
-use super::ERRORS;
-use super::args::DocsFormat;
-use super::report::Report;
+use crate::exit::ERRORS;
+use crate::report::Report;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DocsFormat {
+    /// Markdown: a file per chapter, device and appendix
+    Md,
+    /// HTML: a file for the system and one per device, each complete in itself
+    Html,
+    /// HTML to be printed: a file for everything, with title, contents and page numbers
+    Print,
+}
+
+impl From<DocsFormat> for docs_gen::Format {
+    fn from(format: DocsFormat) -> Self {
+        match format {
+            DocsFormat::Md => docs_gen::Format::Markdown,
+            DocsFormat::Html => docs_gen::Format::Html,
+            DocsFormat::Print => docs_gen::Format::Print,
+        }
+    }
+}
 
 /// Why there are no templates.
 pub(crate) enum Problem {

@@ -149,5 +149,5 @@ fn channel(channel: &DynamicChannel) -> String {
 
 fn moment(at: DateTime) -> String {
     let DateTime { date: Date { .. }, hour, minute } = at;
-    format!("{} {hour:02}:{minute:02}", Language::English.date(at.date))
+    format!("{} {hour:02}:{minute:02}", Language::ENGLISH.date(at.date))
 }

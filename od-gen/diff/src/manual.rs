@@ -27,7 +27,7 @@ pub(super) fn changes(old: &System, new: &System, language: &str) -> Vec<Change>
 
     let issues =
         |list: &[Issue]| by_key(list.iter().map(|one| (format!("issue {}", one.number), one.clone())));
-    let with_date = |one: &Issue| Language::English.date(one.date);
+    let with_date = |one: &Issue| Language::ENGLISH.date(one.date);
     changes.extend(listed(&issues(&before.history), &issues(&after.history), Fact::Document, with_date));
 
     let terms = |system: &System| {

@@ -33,7 +33,7 @@ pub(super) const fn yes_no(yes: bool) -> &'static str {
 }
 
 /// A kind of fact.
-pub(super) const fn fact(fact: Fact) -> &'static str {
+pub(super) fn fact(fact: Fact) -> &'static str {
     WORDS.fact(fact)
 }
 

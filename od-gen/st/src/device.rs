@@ -32,9 +32,9 @@ impl<'a> Device<'a> {
         system: &'a System,
         dictionary: &'a Dictionary,
         node: Option<u8>,
-        language: Option<&'a str>,
+        texts: &'a str,
+        words: Language,
     ) -> Self {
-        let texts = language.unwrap_or_else(|| system.language());
         let prefix = Words::of(&dictionary.key);
         let wanted: Vec<(EntryId, Wanted)> = dictionary
             .entries()
@@ -52,7 +52,7 @@ impl<'a> Device<'a> {
             system,
             dictionary,
             node,
-            wording: Wording::manual(Language::of(texts)),
+            wording: Wording::manual(words),
             texts,
             prefix: prefix.snake(),
             entry_names,
@@ -107,7 +107,7 @@ impl<'a> Device<'a> {
 
     /// A fixed sentence.
     pub(super) fn phrase(&self, phrase: Phrase, parts: &[&str]) -> String {
-        phrase.with(self.wording.language, parts)
+        phrase.filled(self.wording.language, parts)
     }
 
     /// A text of the specification; empty where there is none.

@@ -30,6 +30,7 @@ use std::fmt;
 use od_gen::Artifact;
 use od_spec::eds::GENERATED;
 use od_spec::model::{Dictionary, System};
+use od_spec::wording::Language;
 
 use self::device::Device;
 use self::pdos::Called;
@@ -135,8 +136,12 @@ impl fmt::Display for LeftOut {
 /// assert!(text("lamp.st").contains("FUNCTION lamp_brightness_to_raw : BOOL"));
 /// ```
 pub fn write(system: &System, device: &Dictionary, node: Option<u8>, language: Option<&str>) -> Written {
+    let texts = language.unwrap_or_else(|| system.language());
+    written(Device::new(system, device, node, texts, Language::of(texts)))
+}
+
+fn written(mut device: Device<'_>) -> Written {
     let mut left_out = Vec::new();
-    let mut device = Device::new(system, device, node, language);
     let bits = bits::bits(&mut device);
     let machines = machines::machines(&mut device);
     let pdos = pdos::pdos(&mut device, &mut left_out);

@@ -2,13 +2,17 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::sync::LazyLock;
 
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
+use od_spec::wording::{Language, Texts};
 use od_spec::{NoFiles, compile};
 
-use super::{Written, write};
+use super::device::Device;
+use super::phrases::Phrase;
+use super::{Written, write, written as written_as};
 
 fn system(text: &str) -> System {
     let mut sources = SourceMap::new();
@@ -154,4 +158,56 @@ fn a_foreign_mapping_is_taken_as_it_is() {
     assert!(text.contains("    p_2000 : UINT; (* 2000h p 2000; 12 of 16 bits are mapped *)"), "{text}");
     assert!(text.contains("    entry : UINT; (* 3000h no entry of the device *)"), "{text}");
     assert!(text.contains("IF raw.p_2000 > 4095 THEN"), "{text}");
+}
+
+#[test]
+fn the_sentences_are_those_of_the_language_files() {
+    let in_file: BTreeSet<&str> = Language::ENGLISH.section("structured text").map(|(key, _)| key).collect();
+    assert_eq!(Phrase::ALL.iter().map(|phrase| phrase.key()).collect::<BTreeSet<_>>(), in_file);
+}
+
+/// A language whose texts are those of English in brackets.
+static BRACKETED: LazyLock<Texts> = LazyLock::new(|| {
+    let mut file = String::new();
+    for line in Language::GERMAN.lines() {
+        let text = Language::ENGLISH.text(line.section, line.key);
+        write!(file, "[{}]\n{} = ⟦{text}⟧\n", line.section, line.key).unwrap();
+    }
+    Texts::read(file.leak())
+});
+
+/// The words that no bracket encloses.
+fn words_outside_brackets(text: &str) -> BTreeSet<String> {
+    let (mut depth, mut outside) = (0_usize, String::new());
+    for sign in text.chars() {
+        match sign {
+            '⟦' => depth += 1,
+            '⟧' => depth -= 1,
+            _ if depth == 0 => outside.push(sign),
+            _ => {}
+        }
+    }
+    let is_number =
+        |word: &str| word.strip_suffix('h').is_some_and(|word| !word.contains(char::is_lowercase));
+    let words = outside.split(|sign: char| !sign.is_alphabetic());
+    let words = words.filter(|word| word.contains(char::is_lowercase) && word.len() > 1 && !is_number(word));
+    words.map(str::to_owned).collect()
+}
+
+#[test]
+fn every_word_of_a_comment_is_in_the_language_files() {
+    let system = system(NAMES);
+    let mut known = words_outside_brackets(NAMES);
+    for (_, object, entry) in system.devices[0].entries() {
+        let texts = format!("{} {} {:?} {:?}", object.name, entry.name, entry.about, entry.named_type);
+        known.extend(words_outside_brackets(&texts));
+    }
+    let device = Device::new(&system, &system.devices[0], Some(5), "en", Language::new("xx", || &BRACKETED));
+    for file in written_as(device).artifacts {
+        let text = String::from_utf8(file.bytes).unwrap().replace(super::GENERATED, "");
+        let comments = text.split("(*").skip(1).filter_map(|comment| comment.split("*)").next());
+        let words: BTreeSet<String> = comments.flat_map(words_outside_brackets).collect();
+        let hard_coded: Vec<&String> = words.difference(&known).collect();
+        assert!(hard_coded.is_empty(), "{}: {hard_coded:?}", file.path);
+    }
 }

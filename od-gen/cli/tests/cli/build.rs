@@ -1,7 +1,6 @@
 //! `odgen build`: which files it writes, and that it writes all or none.
 
 use std::fs;
-use std::process::Command;
 
 use insta::assert_snapshot;
 

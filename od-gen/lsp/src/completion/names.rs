@@ -28,7 +28,7 @@ pub(super) fn of_keys(map: &Node, kind: KeyKind, written: &Written, wanted: &Wan
     let offers = match kind {
         KeyKind::Device => defined(wanted, Kind::Device),
         KeyKind::Language => {
-            Language::CODES.iter().map(|code| Offer::word(code, CompletionItemKind::TEXT)).collect()
+            Language::ALL.iter().map(|one| Offer::word(one.code(), CompletionItemKind::TEXT)).collect()
         }
         KeyKind::Indices if is_section(wanted, "objects") => {
             return objects_of_libraries(wanted, written)
