@@ -1,10 +1,10 @@
 //! SYNC producer: the beat that synchronous PDOs follow (CiA 301 9.6.3, 1005h, 1006h, 1019h).
 
-use crate::clock::{Duration, Instant};
-use crate::cob_id::{PRODUCER, can_id};
-use crate::dictionary::Dictionary;
-use crate::frame::{CanId, Frame};
-use crate::parameters::Parameters;
+use crate::access::communication::cob_id::{PRODUCER, can_id};
+use crate::access::dictionary::Dictionary;
+use crate::access::parameters::Parameters;
+use crate::bus::clock::{Duration, Instant};
+use crate::bus::frame::{CanId, Frame};
 
 /// Sends SYNC while bit 30 of 1005h is set and 1006h has a period. The first goes at once, whenever it begins; counters (1019h) begin with 1.
 #[derive(Debug, Clone, Copy, Default)]
@@ -97,8 +97,8 @@ mod tests {
     use std::vec::Vec;
 
     use super::*;
-    use crate::parameters::set;
-    use crate::test_table::{TestDictionary, dictionary, value};
+    use crate::access::parameters::set;
+    use crate::access::test_table::{TestDictionary, dictionary, value};
 
     fn device(cob_id: u32, period: u32, highest: u32) -> TestDictionary {
         dictionary(&[value(0x1005, 0, 4, cob_id), value(0x1006, 0, 4, period), value(0x1019, 0, 1, highest)])

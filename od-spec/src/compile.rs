@@ -252,7 +252,7 @@ fn file(
     let mut tree = yaml::parse(file, sources.file(file), diagnostics)?;
     parts::refuse_alone(&tree, diagnostics)?;
     gaps::check(file, sources.file(file).text(), diagnostics);
-    decode::check(&mut tree, &keys::SPEC, diagnostics);
+    decode::check(&tree, &keys::SPEC, diagnostics);
     parts::join(sources, &mut tree, loader, diagnostics)?;
     Some(decode::read(&tree, shown, diagnostics))
 }

@@ -77,7 +77,7 @@ fn part(
         }
     };
     let file = sources.add_part(files::beside(from, &name.value), text, whole);
-    let mut part = yaml::parse(file, sources.file(file), diagnostics)?;
+    let part = yaml::parse(file, sources.file(file), diagnostics)?;
     let Some(stated) = part.get(PART_OF) else {
         let message = format!("`{}` does not say that it is a part", shorten(&name.value));
         let help =
@@ -86,7 +86,7 @@ fn part(
         return None;
     };
     say_whose(stated, name.span, from, diagnostics);
-    decode::check(&mut part, &PART, diagnostics);
+    decode::check(&part, &PART, diagnostics);
     Some(part)
 }
 

@@ -4,7 +4,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::*;
-use crate::test_table::{dictionary, value};
+use crate::access::test_table::{dictionary, value};
 
 const IDENTITY: Identity =
     Identity { vendor: 0x0000_0123, product: 0x8000_0001, revision: 0x0001_0002, serial: 0xDEAD_BEEF };

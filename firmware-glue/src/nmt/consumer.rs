@@ -1,11 +1,11 @@
 //! Heartbeat consumer: whether other nodes are alive (CiA 301 9.2.6.2, 1016h).
 
-use crate::clock::{Duration, Instant, earlier};
-use crate::dictionary::Dictionary;
-use crate::frame::Frame;
+use crate::access::dictionary::Dictionary;
+use crate::access::parameters::Parameters;
+use crate::bus::clock::{Duration, Instant, earlier};
+use crate::bus::frame::Frame;
+use crate::bus::node_id::{NodeId, node_of};
 use crate::nmt::{ERROR_CONTROL, State};
-use crate::node_id::NodeId;
-use crate::parameters::{Parameters, node_of};
 
 /// What is known about a node that 1016h watches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -165,9 +165,9 @@ impl<const N: usize> Consumer<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::CanId;
-    use crate::parameters::set;
-    use crate::test_table::{TestDictionary, dictionary, value};
+    use crate::access::parameters::set;
+    use crate::access::test_table::{TestDictionary, dictionary, value};
+    use crate::bus::frame::CanId;
 
     fn node(node: u8) -> NodeId {
         NodeId::new(node).expect("a node-ID")

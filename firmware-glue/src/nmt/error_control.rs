@@ -1,11 +1,11 @@
 //! Boot-up message, heartbeat producer and node guarding of a slave (CiA 301 9.2.6.2 and 9.2.4).
 
-use crate::clock::{Duration, Instant, earlier};
-use crate::dictionary::Dictionary;
-use crate::frame::Frame;
+use crate::access::dictionary::Dictionary;
+use crate::access::parameters::Parameters;
+use crate::bus::clock::{Duration, Instant, earlier};
+use crate::bus::frame::Frame;
+use crate::bus::node_id::NodeId;
 use crate::nmt::{ERROR_CONTROL, State};
-use crate::node_id::NodeId;
-use crate::parameters::Parameters;
 
 /// What a guarded node learns about its master (life guarding).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -171,8 +171,8 @@ fn message(node: NodeId, state: u8) -> Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::set;
-    use crate::test_table::{TestDictionary, dictionary, value};
+    use crate::access::parameters::set;
+    use crate::access::test_table::{TestDictionary, dictionary, value};
 
     fn node() -> NodeId {
         NodeId::new(5).expect("a node-ID")

@@ -21,10 +21,10 @@ mod error_control;
 pub use consumer::{Consumer, Heartbeat, NodeEvent};
 pub use error_control::{ErrorControl, Guarding};
 
-use crate::dictionary::Dictionary;
-use crate::frame::Frame;
-use crate::node_id::NodeId;
-use crate::parameters::Parameters;
+use crate::access::dictionary::Dictionary;
+use crate::access::parameters::Parameters;
+use crate::bus::frame::Frame;
+use crate::bus::node_id::NodeId;
 
 /// Base of the identifiers of heartbeat, boot-up and guarding (CiA 301 table 34).
 const ERROR_CONTROL: u16 = 0x700;
@@ -247,8 +247,8 @@ impl Nmt {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::CanId;
-    use crate::test_table::{dictionary, value};
+    use crate::access::test_table::{dictionary, value};
+    use crate::bus::frame::CanId;
 
     const STATES: [State; 4] =
         [State::Initialising, State::PreOperational, State::Operational, State::Stopped];

@@ -1,14 +1,14 @@
 //! The application's part in a node.
 
 use crate::abort::AbortCode;
-use crate::application::Application;
-use crate::constraint::{Consistent, Constrained};
+use crate::access::application::Application;
+use crate::access::application::Entries;
+use crate::access::constraint::{Consistent, Constrained};
+use crate::bus::node_id::NodeId;
 use crate::emcy::{Emergency, EmergencyProducer};
-use crate::entries::Entries;
 use crate::lss::{LssEvent, LssHandler};
 use crate::nmt::{Guarding, NodeEvent, State};
-use crate::node_id::NodeId;
-use crate::pdo_engine::{PdoEvent, PdoHandler};
+use crate::pdo::engine::{PdoEvent, PdoHandler};
 
 /// What starts again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,7 +71,7 @@ pub(super) struct WithEmergencies<'a, A, const ERRORS: usize> {
     pub emergencies: &'a mut EmergencyProducer<ERRORS>,
 }
 
-impl<'t, D: crate::dictionary::Dictionary<'t>, A: PdoHandler<D>, const ERRORS: usize> PdoHandler<D>
+impl<'t, D: crate::access::dictionary::Dictionary<'t>, A: PdoHandler<D>, const ERRORS: usize> PdoHandler<D>
     for WithEmergencies<'_, A, ERRORS>
 {
     fn pdo_event(&mut self, dictionary: &mut D, event: PdoEvent<D::Entry>) {

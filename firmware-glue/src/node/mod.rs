@@ -41,20 +41,20 @@ mod tests;
 pub use handler::{Event, NodeHandler, Reset};
 pub use room::NoRoom;
 
-use crate::clock::{Instant, earlier};
-use crate::dictionary::Dictionary;
+use crate::access::dictionary::Dictionary;
+use crate::bus::clock::{Instant, earlier};
+use crate::bus::frame::Frame;
+use crate::bus::node_id::NodeId;
 use crate::emcy::{self, Emergency, EmergencyProducer, Raised};
-use crate::frame::Frame;
 use crate::lss::{Identity, Lss, LssEvent, LssState, MaybeNode};
 use crate::nmt::{
     Command, Consumer, ErrorBehaviour, ErrorControl, Nmt, NodeEvent, Service, State, Transition,
 };
 use crate::node::handler::WithEmergencies;
-use crate::node_id::NodeId;
-use crate::pdo_engine::PdoEngine;
+use crate::pdo::engine::PdoEngine;
 use crate::sdo::{Channel, SdoServer};
-use crate::stored::reset;
 use crate::sync::{Sync, SyncProducer};
+use crate::table::stored::reset;
 use crate::table::{Region, Storage, Table};
 
 /// A node with up to `T` TPDOs, `R` RPDOs, `ERRORS` errors at once, of which up to five are its own (see [`raise`](Self::raise)), and `WATCHED`
@@ -413,7 +413,8 @@ fn watchable(table: &Table<'_>) -> usize {
 }
 
 /// The channel of an SDO server that has none: NMT commands are no requests.
-const NO_CHANNEL: Channel = Channel { request: crate::frame::CanId::ZERO, answer: crate::frame::CanId::ZERO };
+const NO_CHANNEL: Channel =
+    Channel { request: crate::bus::frame::CanId::ZERO, answer: crate::bus::frame::CanId::ZERO };
 
 /// The first SDO channel; that of the predefined connection set where 1200h does not exist.
 fn channel<'t, D: Dictionary<'t>>(dictionary: &D, id: NodeId) -> Option<Channel> {

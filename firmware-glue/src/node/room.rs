@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::pdo_engine::TooManyPdos;
+use crate::pdo::engine::TooManyPdos;
 
 /// A dictionary has more of something than a node has room for: nothing of it is left out in silence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

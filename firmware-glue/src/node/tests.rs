@@ -6,16 +6,16 @@ use std::vec;
 use std::vec::Vec;
 
 use super::*;
-use crate::application::Application;
+use crate::access::application::Application;
+use crate::access::parameters::{Parameters, set};
+use crate::access::test_table::{TestDictionary, TestValue, dictionary, stored, value};
+use crate::bus::frame::CanId;
 use crate::emcy::ErrorRegister;
-use crate::frame::CanId;
-use crate::id::EntryId;
 use crate::lss::{BitRate, LssEvent, LssHandler, Reply};
 use crate::nmt::Guarding;
-use crate::parameters::{Parameters, set};
-use crate::pdo_engine::{PdoEvent, PdoHandler, TooManyPdos};
+use crate::pdo::engine::{PdoEvent, PdoHandler, TooManyPdos};
 use crate::table::Storage;
-use crate::test_table::{TestDictionary, TestValue, dictionary, stored, value};
+use crate::table::entry::EntryId;
 
 /// What an application hears.
 #[derive(Default)]

@@ -54,7 +54,6 @@ impl Sender {
     }
 
     /// Bytes that were sent, each counted once.
-    #[cfg(feature = "sdo-client")]
     pub(crate) const fn length(&self) -> u32 {
         self.summed
     }

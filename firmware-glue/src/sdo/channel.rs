@@ -1,9 +1,9 @@
 //! The two identifiers of an SDO channel.
 
-use crate::cob_id::{NOT_VALID, can_id};
-use crate::dictionary::Dictionary;
-use crate::frame::CanId;
-use crate::node_id::NodeId;
+use crate::access::communication::cob_id::{NOT_VALID, can_id};
+use crate::access::dictionary::Dictionary;
+use crate::bus::frame::CanId;
+use crate::bus::node_id::NodeId;
 
 /// The identifiers of a channel between one client and one server.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

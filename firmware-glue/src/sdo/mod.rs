@@ -2,46 +2,25 @@
 //!
 //! Nothing here sends, waits or knows a clock: frames go in, frames come out, and the time is told.
 //!
-//! - [`SdoServer`] (feature `sdo-server`) serves any dictionary: expedited and segmented transfers, and with the feature
+//! - [`SdoServer`] serves any dictionary: expedited and segmented transfers, and with the feature
 //!   `sdo-block` blocks with checksums.
-//! - [`SdoClient`] (feature `sdo-client`) reads and writes the dictionary of another node the same ways.
+//! - [`SdoClient`] reads and writes the dictionary of another node the same ways.
 //! - [`codec`] has the frames.
-
-mod channel;
-pub mod codec;
 
 #[cfg(feature = "sdo-block")]
 mod block;
-#[cfg(feature = "sdo-client")]
+mod channel;
 mod client;
+pub mod codec;
 #[cfg(feature = "sdo-block")]
 mod crc;
-#[cfg(feature = "sdo-client")]
-mod data;
-#[cfg(feature = "sdo-server")]
-mod download;
 mod piece;
-#[cfg(feature = "sdo-client")]
-mod read;
-#[cfg(feature = "sdo-server")]
 mod server;
-#[cfg(feature = "sdo-server")]
-mod upload;
-#[cfg(feature = "sdo-client")]
-mod write;
 
-use crate::clock::Duration;
+use crate::bus::clock::Duration;
 pub use channel::Channel;
-#[cfg(feature = "sdo-client")]
-pub use client::{Failure, SdoClient, Step, Way};
-#[cfg(feature = "sdo-client")]
-pub use data::{Filled, Sink, Source};
-#[cfg(feature = "sdo-client")]
-pub use read::SdoRead;
-#[cfg(feature = "sdo-server")]
+pub use client::{Failure, Filled, SdoClient, SdoRead, SdoWrite, Sink, Source, Step, Way};
 pub use server::SdoServer;
-#[cfg(feature = "sdo-client")]
-pub use write::SdoWrite;
 
 /// Time without a frame of the other side, after which a transfer ends with
 /// [`AbortCode::TIMEOUT`](crate::AbortCode::TIMEOUT), unless something else is asked for: a second.

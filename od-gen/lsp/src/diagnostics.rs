@@ -7,7 +7,7 @@ use lsp_types::{
     CodeDescription, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag, Location,
     NumberOrString, PublishDiagnosticsParams, Uri,
 };
-use od_spec::diag::{self, Severity, codes};
+use od_spec::diag::{self, Severity};
 use od_spec::rule_codes;
 use od_spec::source::FileId;
 
@@ -71,13 +71,7 @@ fn message(said: &diag::Diagnostic) -> String {
 
 /// What editors show in grey, or struck out.
 fn tag(said: &diag::Diagnostic) -> Option<DiagnosticTag> {
-    if said.code == rule_codes::UNUSED_DEFINITION {
-        Some(DiagnosticTag::UNNECESSARY)
-    } else if said.code == codes::FORMER_NAME {
-        Some(DiagnosticTag::DEPRECATED)
-    } else {
-        None
-    }
+    if said.code == rule_codes::UNUSED_DEFINITION { Some(DiagnosticTag::UNNECESSARY) } else { None }
 }
 
 /// What was said about documents, so that only what is new is sent.

@@ -30,14 +30,14 @@ use crate::diag::Diagnostics;
 use crate::keys::{self, Keys, Shape};
 use crate::yaml::Node;
 
-/// Says what in a file is not as its keys want it, and gives keys their name of today.
-pub(crate) fn check(root: &mut Node, keys: &Keys, diagnostics: &mut Diagnostics) {
+/// Says what in a file is not as its keys want it.
+pub(crate) fn check(root: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
     let owner = shape::start(root);
     shape::check_map(root, keys, owner, diagnostics);
 }
 
 /// Says what in a part of a file is not of the shape that it is expected to have.
-pub(crate) fn check_shape(node: &mut Node, shape: Shape, diagnostics: &mut Diagnostics) {
+pub(crate) fn check_shape(node: &Node, shape: Shape, diagnostics: &mut Diagnostics) {
     let owner = shape::start(node);
     shape::check(node, shape, owner, diagnostics);
 }
@@ -50,7 +50,7 @@ pub(crate) fn read(root: &Node, shown: &[String], diagnostics: &mut Diagnostics)
 }
 
 /// [`check`], then [`read()`]: a file without parts.
-pub(crate) fn decode(root: &mut Node, diagnostics: &mut Diagnostics) -> Spec {
+pub(crate) fn decode(root: &Node, diagnostics: &mut Diagnostics) -> Spec {
     check(root, &keys::SPEC, diagnostics);
     read(root, &[], diagnostics)
 }

@@ -3,21 +3,20 @@
 use super::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::{AnyName, ConditionError, Expr, Parsed, without_names};
-use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, Shape, VERSION, name_today};
+use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, Shape, VERSION};
 use crate::model::Access;
 use crate::name_pattern::{NamePattern, Placeholder};
 use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::{MERGE, Node, NodeKind};
 
-/// Checks a map with fixed keys and everything below it; keys get their name of today. `owner` is the place that stands
+/// Checks a map with fixed keys and everything below it. `owner` is the place that stands
 /// for the whole map: the key it belongs to.
-pub(super) fn check_map(node: &mut Node, keys: &Keys, owner: Span, diagnostics: &mut Diagnostics) {
-    let NodeKind::Map(entries) = &mut node.kind else {
+pub(super) fn check_map(node: &Node, keys: &Keys, owner: Span, diagnostics: &mut Diagnostics) {
+    let NodeKind::Map(entries) = &node.kind else {
         wrong_kind(node, &format!("the keys of {}", keys.name), diagnostics);
         return;
     };
-    rename(entries, keys, diagnostics);
     let missing = |key: &&Key| key.required && !entries.iter().any(|(name, _)| name.value == key.name);
     let missing: Vec<&Key> = keys.keys.iter().filter(missing).collect();
     let mut misspelt = Vec::new();
@@ -38,32 +37,6 @@ pub(super) fn check_map(node: &mut Node, keys: &Keys, owner: Span, diagnostics: 
             Diagnostic::new(codes::MISSING_KEY, owner, format!("{} needs the key `{}`", keys.name, key.name))
                 .help(format!("add `{}:`{what}", key.name)),
         );
-    }
-}
-
-/// Gives keys that had another name in an earlier release the one that they have today.
-fn rename(entries: &mut [(Spanned<String>, Node)], keys: &Keys, diagnostics: &mut Diagnostics) {
-    for at in 0..entries.len() {
-        let name = &entries[at].0;
-        let Some(today) = name_today(&name.value, keys) else { continue };
-        let diagnostic = match entries.iter().find(|(other, _)| other.value == today) {
-            Some((other, _)) => Diagnostic::new(
-                codes::DUPLICATE_KEY,
-                name.span,
-                format!("`{}` is the former name of `{today}`, which stands here, too", name.value),
-            )
-            .with(other.span, "its name today")
-            .help("remove one of the two, or join their values"),
-            None => Diagnostic::new(
-                codes::FORMER_NAME,
-                name.span,
-                format!("the key `{}` is called `{today}` now", name.value),
-            )
-            .help(format!("write `{today}:`; the next release does not know the former name"))
-            .edit(name.span, today),
-        };
-        diagnostics.push(diagnostic);
-        today.clone_into(&mut entries[at].0.value);
     }
 }
 
@@ -119,7 +92,7 @@ fn wrong_kind_for(node: &Node, expected: &str, example: &str, diagnostics: &mut 
 }
 
 /// Checks a value of any shape.
-pub(super) fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) {
+pub(super) fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) {
     match shape {
         Shape::Map(keys) => check_map(node, keys, owner, diagnostics),
         Shape::ShortOr(short, keys) => match node.kind {
@@ -133,7 +106,7 @@ pub(super) fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mu
             _ => wrong_kind(node, "a text", diagnostics),
         },
         Shape::MapOf(kind, value) => check_keyed(node, kind, *value, diagnostics),
-        Shape::List(item) => match &mut node.kind {
+        Shape::List(item) => match &node.kind {
             NodeKind::List(items) => {
                 for node in items {
                     let owner = start(node);
@@ -147,7 +120,7 @@ pub(super) fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mu
             NodeKind::Null | NodeKind::Map(_) | NodeKind::Broken => wrong_kind(node, "a list", diagnostics),
         },
         Shape::Feature => check_feature(node, diagnostics),
-        Shape::Default | Shape::Setting => match &mut node.kind {
+        Shape::Default | Shape::Setting => match &node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
                 for node in items {
@@ -159,7 +132,7 @@ pub(super) fn check(node: &mut Node, shape: Shape, owner: Span, diagnostics: &mu
             NodeKind::Scalar { .. } => {}
             NodeKind::Null | NodeKind::Broken => wrong_kind(node, expected(shape), diagnostics),
         },
-        Shape::OneOrMore(item) => match &mut node.kind {
+        Shape::OneOrMore(item) => match &node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
                 for node in items {
@@ -190,9 +163,9 @@ pub(in crate::decode) fn start(node: &Node) -> Span {
 }
 
 /// A name, or a name and a number.
-fn check_feature(node: &mut Node, diagnostics: &mut Diagnostics) {
+fn check_feature(node: &Node, diagnostics: &mut Diagnostics) {
     let owner = node.span;
-    match &mut node.kind {
+    match &node.kind {
         NodeKind::Map(entries) if entries.len() == 1 => {
             for (name, number) in entries {
                 check(number, Shape::Integer(1, CHANNELS), name.span, diagnostics);
@@ -207,15 +180,15 @@ fn check_feature(node: &mut Node, diagnostics: &mut Diagnostics) {
     }
 }
 
-fn check_keyed(node: &mut Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagnostics) {
-    let NodeKind::Map(entries) = &mut node.kind else {
+fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagnostics) {
+    let NodeKind::Map(entries) = &node.kind else {
         // A section whose entries were all removed or commented out holds nothing.
         if node.kind != NodeKind::Null {
             wrong_kind(node, &format!("a map whose keys are {}", key_words(kind)), diagnostics);
         }
         return;
     };
-    for (name, node) in entries.iter_mut().filter(|(name, _)| name.value != MERGE) {
+    for (name, node) in entries.iter().filter(|(name, _)| name.value != MERGE) {
         let text = name.value.as_str();
         let integer = || scalar::integer(text).ok();
         let fits = match kind {

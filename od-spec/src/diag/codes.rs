@@ -236,8 +236,6 @@ codes! {
         "The specification takes the object from a library of a standard and says something else about it. That is its right: the maker's word goes before the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
     OPEN_GAP Warning "OD0841" "a gap that nobody has filled":
         "`odgen new` writes examples where only the author knows the value, such as the vendor-ID, and marks them with the comment `# <--`. A device must not leave with them. Write the value and remove the comment."
-    FORMER_NAME Warning "OD0842" "a key under its former name":
-        "The key has another name now. This release still reads the former one; the next does not. `on:` became `devices:`, as YAML 1.1, which many tools read, takes the word `on` for a truth value; `tables:` of a section became `content:`, as texts stand there, too."
     REGISTER_AGAINST_CLASS Warning "OD0845" "an error register against the class of the error":
         "The first digits of an error code are its class (CiA 301 table 21): current, voltage, temperature, communication, or the manufacturer's own. Whoever reads the error register (1001h) expects the bit of that class. `register:` names other bits and not this one: add it, or give the error a code of the class that is meant."
     MACHINE_BESIDE_RUNS Warning "OD0850" "a machine beside the runs":

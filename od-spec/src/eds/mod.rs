@@ -49,4 +49,4 @@ pub use dates::{date_text, time_text};
 pub use document::{Document, Section, SectionRef};
 pub use extras::Extra;
 pub use line::{Line, LineEnd, LineKind};
-pub use owner::{GENERATED, Owner, Remark};
+pub use owner::{GENERATED, MARK, Owner, Remark};

@@ -35,7 +35,7 @@ pub use pdos::{
     PDO_RESERVED, PDOS,
 };
 pub use plant::{MASTER, PLANT, PLANT_DEVICE, PLANT_MACHINE, PLANT_NODE, PLANT_TYPE, PLANT_VERSION, SITE};
-pub use shape::{CHANNELS, Key, KeyKind, Keys, NameOf, NumberedName, Shape, VERSION, name_today};
+pub use shape::{CHANNELS, Key, KeyKind, Keys, NameOf, NumberedName, Shape, VERSION};
 pub use types::{BIT, ENUM_VALUE, MODE_BIT, TYPE, UNIT};
 
 pub(crate) use constraints::constraint_keys;

@@ -184,15 +184,6 @@ pub enum KeyKind {
     Number,
 }
 
-/// Names that keys had in the release before, with those of today.
-const FORMER_NAMES: [(&str, &str); 2] = [("on", "devices"), ("tables", "content")];
-
-/// The name that a key of this map has today, if this is a former one.
-pub fn name_today(name: &str, keys: &Keys) -> Option<&'static str> {
-    let (_, today) = FORMER_NAMES.iter().find(|(former, _)| *former == name)?;
-    keys.get(today).map(|key| key.name)
-}
-
 /// The version of the language that the compiler reads.
 pub const VERSION: i128 = 1;
 

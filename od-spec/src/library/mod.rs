@@ -78,7 +78,7 @@ pub fn library_in(name: &str, languages: &[String]) -> Option<Library> {
     let mut sources = SourceMap::new();
     let id = sources.add(format!("<{name}>"), *text);
     let mut diagnostics = Diagnostics::new();
-    let spec = decode(&mut yaml::parse(id, sources.file(id), &mut diagnostics)?, &mut diagnostics);
+    let spec = decode(&yaml::parse(id, sources.file(id), &mut diagnostics)?, &mut diagnostics);
     let indices = indices(&spec);
     let plain = |_: &ObjectDecl| String::new();
     let mut system = probe(name, languages, &indices, plain)?;

@@ -13,6 +13,13 @@ impl fmt::Display for Index {
     }
 }
 
+impl Index {
+    /// As specifications write it: `0x6040`.
+    pub fn notation(self) -> String {
+        format!("0x{:04X}", self.0)
+    }
+}
+
 /// Sub-index of an entry; 0 for a VAR and for the element count of arrays and records.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SubIndex(pub u8);
@@ -41,6 +48,17 @@ pub struct EntryId {
 impl fmt::Display for EntryId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.sub.0 == 0 { self.index.fmt(f) } else { write!(f, "{}.{}", self.index, self.sub) }
+    }
+}
+
+impl EntryId {
+    /// As specifications write it: `0x6040`, or `0x30FA.3` for a sub-index other than 0.
+    pub fn notation(self) -> String {
+        if self.sub.0 == 0 {
+            self.index.notation()
+        } else {
+            format!("{}.{}", self.index.notation(), self.sub)
+        }
     }
 }
 

@@ -221,7 +221,7 @@ fn spelt(definition: Definition, is_named: bool, number: impl FnOnce() -> String
 }
 
 fn index_text(first: Index, last: Index) -> String {
-    if first == last { format!("0x{:04X}", first.0) } else { format!("0x{:04X}..0x{:04X}", first.0, last.0) }
+    if first == last { first.notation() } else { format!("0x{:04X}..0x{:04X}", first.0, last.0) }
 }
 
 fn pdos<'t>(tree: &'t Node, known: &mut Known<'t>) {

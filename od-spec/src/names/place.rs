@@ -1,7 +1,7 @@
 //! What a byte of a text is a part of, by the table of keys.
 
 use super::walk::{Step, devices_of};
-use crate::keys::{KeyKind, Keys, PART, PART_OF, SPEC, Shape, name_today};
+use crate::keys::{KeyKind, Keys, PART, PART_OF, SPEC, Shape};
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
 
@@ -91,8 +91,7 @@ impl<'t> Finder<'t> {
                 return Some(Spot::Key { map, keys, name });
             }
             if self.holds(value.span) {
-                let today = name_today(&name.value, keys).unwrap_or(&name.value);
-                let key = keys.get(today)?;
+                let key = keys.get(&name.value)?;
                 self.path.push(Step::Key { map, keys, key, name });
                 return self.value(value, key.shape);
             }

@@ -1,6 +1,6 @@
 //! Every scalar of a syntax tree, with the keys that lead to it.
 
-use crate::keys::{Key, KeyKind, Keys, Shape, name_today};
+use crate::keys::{Key, KeyKind, Keys, Shape};
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
 
@@ -85,8 +85,7 @@ struct Walk<'t, 'v> {
 impl<'t> Walk<'t, '_> {
     fn map(&mut self, map: &'t Node, keys: &'static Keys) {
         for (name, value) in map.entries() {
-            let today = name_today(&name.value, keys).unwrap_or(&name.value);
-            if let Some(key) = keys.get(today) {
+            if let Some(key) = keys.get(&name.value) {
                 self.below(Step::Key { map, keys, key, name }, value, key.shape);
             }
         }

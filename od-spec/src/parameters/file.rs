@@ -78,8 +78,8 @@ pub fn parameter_file(
     file: FileId,
     diagnostics: &mut Diagnostics,
 ) -> Option<ParameterFile> {
-    let mut tree = yaml::parse_as(Document::Parameters, file, sources.file(file), diagnostics)?;
-    decode::check(&mut tree, &PARAMETER_FILE, diagnostics);
+    let tree = yaml::parse_as(Document::Parameters, file, sources.file(file), diagnostics)?;
+    decode::check(&tree, &PARAMETER_FILE, diagnostics);
     let decl = decode::parameter_file(&tree);
     Some(ParameterFile {
         device: decl.device,
@@ -119,16 +119,16 @@ pub fn parameter_file(
 /// lamp in the hall: {2000.2: 80}
 /// ");
 /// let mut diagnostics = Diagnostics::new();
-/// let mut tree = yaml::parse(house, sources.file(house), &mut diagnostics).expect("YAML");
-/// let yaml::NodeKind::Map(parts) = &mut tree.kind else { panic!("a map") };
+/// let tree = yaml::parse(house, sources.file(house), &mut diagnostics).expect("YAML");
+/// let yaml::NodeKind::Map(parts) = &tree.kind else { panic!("a map") };
 /// let layers: Vec<Layer> =
-///     parts.iter_mut().map(|(_, map)| Layer::of(settings_of_map(map, &mut diagnostics))).collect();
+///     parts.iter().map(|(_, map)| Layer::of(settings_of_map(map, &mut diagnostics))).collect();
 /// let assigned = assign_layers(&system, &system.devices[0], 5, &layers, &mut diagnostics);
 /// assert!(diagnostics.is_empty());
 /// let values = assigned.values.iter().map(|(id, value)| (id.to_string(), value.integer(), assigned.origins[id].layer));
 /// assert_eq!(values.collect::<Vec<_>>(), [("2000h.1".to_owned(), Some(10), 0), ("2000h.2".to_owned(), Some(80), 1)]);
 /// ```
-pub fn settings_of_map(map: &mut Node, diagnostics: &mut Diagnostics) -> Vec<SettingDecl> {
+pub fn settings_of_map(map: &Node, diagnostics: &mut Diagnostics) -> Vec<SettingDecl> {
     decode::check_shape(map, Shape::MapOf(KeyKind::Name, &Shape::Setting), diagnostics);
     decode::settings(map)
 }

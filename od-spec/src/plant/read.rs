@@ -65,8 +65,8 @@ fn read(
     diagnostics: &mut Diagnostics,
     files: &mut Vec<DeviceFile>,
 ) -> Option<Plant> {
-    let mut tree = yaml::parse_as(Document::Plant, root, sources.file(root), diagnostics)?;
-    decode::check(&mut tree, &keys::PLANT, diagnostics);
+    let tree = yaml::parse_as(Document::Plant, root, sources.file(root), diagnostics)?;
+    decode::check(&tree, &keys::PLANT, diagnostics);
     let decl = decode::plant(&tree);
     drop(tree);
     let mut plant = Plant {

@@ -49,7 +49,7 @@ fn shipped(name: &str) -> Option<Dictionary> {
 fn read(text: &str) -> Option<Spec> {
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
     let file = sources.add("standard", text);
-    let spec = decode(&mut yaml::parse(file, sources.file(file), &mut diagnostics)?, &mut diagnostics);
+    let spec = decode(&yaml::parse(file, sources.file(file), &mut diagnostics)?, &mut diagnostics);
     (!diagnostics.has_errors()).then_some(spec)
 }
 

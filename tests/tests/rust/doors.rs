@@ -110,14 +110,43 @@ fn a_specification_with_mistakes_is_an_error_of_the_compiler() {
     });
 }
 
+/// A program with a generated file, which uses the traits of the dictionary.
+const PROGRAM: &str = "
+mod fullmo;
+
+use firmware_glue::{Application, Constrained, Dictionary, pdo};
+use fullmo::{Entry, Fullmo};
+
+struct Hardware;
+
+impl Application<Fullmo> for Hardware {
+    fn changed(&mut self, od: &mut Fullmo, entry: Entry) {
+        assert_eq!((entry, od.device_type().0), (Entry::ProducerHeartbeatTime, 0x2_0192));
+    }
+}
+
+fn main() {
+    let mut od = Fullmo::new(1);
+    od.write(0x1017, 0, &[1, 0], &mut Hardware).unwrap();
+    let _ = (od.broken_constraint(), pdo::pack(&mut od, 1, &mut Hardware));
+}
+";
+
 #[test]
 fn a_file_for_another_layout_is_one_error() {
-    insta::assert_snapshot!("older", refused(Path::new("layouts/older.rs")));
-    insta::assert_snapshot!("older_still", refused(Path::new("layouts/older_still.rs")));
-    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("present");
-    let output = compile(Path::new("layouts/present.rs"), Product::Program(&program)).unwrap();
+    let scratch = Path::new(env!("CARGO_TARGET_TMPDIR")).join("layouts");
+    std::fs::create_dir_all(&scratch).unwrap();
+    let (main, program) = (scratch.join("main.rs"), scratch.join("program"));
+    std::fs::write(&main, PROGRAM).unwrap();
+    let present = std::fs::read_to_string(root().join("generated/src/fullmo.rs")).unwrap();
+    std::fs::write(scratch.join("fullmo.rs"), &present).unwrap();
+    let output = compile(&main, Product::Program(&program)).unwrap();
     assert_eq!(messages(&output), "\n");
     assert!(Command::new(program).status().unwrap().success());
+    let other = present.replacen("generated_for_layout_1", "generated_for_layout_0", 1);
+    std::fs::write(scratch.join("fullmo.rs"), other).unwrap();
+    let said = refused(&main).replace(&scratch.display().to_string(), "SCRATCH");
+    insta::assert_snapshot!("other_layout", said);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Unusual specifications give code that compiles without a warning and does what they say.
 
-use firmware_glue::{AbortCode, Constrained, Dictionary, EntryId, pdo, unpack_consistent};
+use firmware_glue::{AbortCode, Constrained, Dictionary, EntryId, pdo};
 
 #[deny(warnings)]
 mod nasty {
@@ -92,7 +92,7 @@ fn a_placeholder_keeps_its_place_whatever_the_count() {
 #[test]
 fn bits_in_pdos_are_packed_without_gaps() {
     let mut od = Nasty::new(1);
-    assert_eq!(unpack_consistent(&mut od, 2, &[0b0000_0101, 0b1], &mut ()).unwrap().refused, None);
+    assert_eq!(pdo::unpack_consistent(&mut od, 2, &[0b0000_0101, 0b1], &mut ()).unwrap().refused, None);
     assert!(od.flag());
     assert_eq!(od.x().0, 0b1000_0010);
     let sent = pdo::pack(&mut od, 1, &mut ()).unwrap();

@@ -71,9 +71,6 @@ fn specifications(directory: &str, starts: &[&str]) -> Vec<(String, String)> {
     found
 }
 
-/// The case whose keys have names of an earlier release, which the compiler still reads and an editor marks.
-const FORMER_NAMES: &str = "od0842";
-
 /// Puts something under `objects:` of a small specification.
 fn with_object(object: &str) -> String {
     format!(
@@ -88,18 +85,9 @@ fn every_valid_specification_is_accepted() {
     all.extend(specifications("od-spec/profiles", &[""]));
     assert!(all.len() >= 2);
     all.extend(specifications("tests/ui", &["ok", "warn"]));
-    for (name, text) in all.into_iter().filter(|(name, _)| !name.contains(FORMER_NAMES)) {
+    for (name, text) in all {
         assert_eq!(problems(&validator, &text), Vec::<String>::new(), "{name}");
     }
-}
-
-#[test]
-fn keys_have_their_names_of_today() {
-    let validator = validator();
-    let former =
-        specifications("tests/ui", &["warn"]).into_iter().find(|(name, _)| name.contains(FORMER_NAMES));
-    let (_, text) = former.unwrap();
-    assert!(!problems(&validator, &text).is_empty());
 }
 
 #[test]

@@ -7,7 +7,7 @@ use firmware_glue::clock::{Duration, Instant};
 use firmware_glue::emcy::Emergency;
 use firmware_glue::lss::{BitRate, LssHandler};
 use firmware_glue::node::{NodeHandler, Reset};
-use firmware_glue::pdo_engine::PdoHandler;
+use firmware_glue::pdo::engine::PdoHandler;
 use firmware_glue::state_machine::{Cause, StateHandler, StateMachine};
 use firmware_glue::storage::{ALL, Command, ParameterStore};
 use firmware_glue::{AbortCode, Application, Dictionary, NodeId, Storage};

@@ -5,7 +5,7 @@ use super::{
     TOGGLE, alone, checksum, crc_bit, end, frame, id, number, size_if, stated, toggle_bit, unused,
 };
 use crate::abort::AbortCode;
-use crate::id::EntryId;
+use crate::table::entry::EntryId;
 
 /// What a server sends, but for the segments of blocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

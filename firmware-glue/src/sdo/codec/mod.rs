@@ -8,12 +8,11 @@ mod request;
 mod tests;
 
 pub use answer::Answer;
-#[cfg(feature = "sdo-server")]
 pub(crate) use answer::{downloaded, uploaded};
 pub use request::Request;
 
 use crate::abort::AbortCode;
-use crate::id::EntryId;
+use crate::table::entry::EntryId;
 
 /// The value in a frame that begins and ends a transfer: one to four bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,7 +37,6 @@ impl Expedited {
     }
 
     /// The first bytes of some, one to four, without a loop.
-    #[cfg(feature = "sdo-server")]
     #[inline]
     pub(crate) fn first_of(bytes: &[u8], length: u16) -> Option<Self> {
         let (number, length) = match length {

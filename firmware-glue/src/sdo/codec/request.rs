@@ -5,7 +5,7 @@ use super::{
     Segment, TOGGLE, alone, checksum, crc_bit, end, frame, id, number, size_if, stated, toggle_bit, unused,
 };
 use crate::abort::AbortCode;
-use crate::id::EntryId;
+use crate::table::entry::EntryId;
 
 /// What a client sends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,7 +110,6 @@ impl Request {
     }
 
     /// What a frame reads, if it is [`Self::Upload`]: what a server is asked most, told apart without building the request.
-    #[cfg(feature = "sdo-server")]
     #[inline]
     #[expect(
         clippy::trivially_copy_pass_by_ref,
@@ -121,7 +120,6 @@ impl Request {
     }
 
     /// What a frame writes, and where, if it is [`Self::DownloadExpedited`].
-    #[cfg(feature = "sdo-server")]
     #[inline]
     #[expect(clippy::trivially_copy_pass_by_ref, reason = "as above")]
     pub(crate) fn written_entry(bytes: &[u8; 8]) -> Option<(EntryId, Expedited)> {

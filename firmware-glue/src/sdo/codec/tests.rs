@@ -1,6 +1,6 @@
 use super::{Aborted, Answer, BlockSegment, Expedited, Piece, Received, Request, Segment};
 use crate::abort::AbortCode;
-use crate::id::EntryId;
+use crate::table::entry::EntryId;
 
 const ID: EntryId = EntryId { index: 0x1234, sub: 0x56 };
 

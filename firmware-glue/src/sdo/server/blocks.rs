@@ -1,15 +1,15 @@
 //! The server's side of block transfers (CiA 301 7.2.4.2.9 to 7.2.4.2.16).
 
-use super::super::block::{Receiver, Sender};
-use super::super::codec::{Answer, BlockSegment, Received, Request};
-use super::super::download::Download;
-use super::super::upload::Upload;
+use super::download::Download;
+use super::upload::Upload;
 use super::{Phase, SdoServer, Transfer, find_to_upload};
 use crate::abort::AbortCode;
-use crate::application::Application;
-use crate::dictionary::Dictionary;
-use crate::id::EntryId;
-use crate::stored::value_of;
+use crate::access::application::Application;
+use crate::access::dictionary::Dictionary;
+use crate::sdo::block::{Receiver, Sender};
+use crate::sdo::codec::{Answer, BlockSegment, Received, Request};
+use crate::table::entry::EntryId;
+use crate::table::stored::value_of;
 
 impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
     /// Whether there is a segment of a block to be sent.

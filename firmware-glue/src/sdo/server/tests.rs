@@ -1,15 +1,15 @@
 use super::{SdoServer, Transfer};
 use crate::abort::AbortCode;
-use crate::application::Application;
-use crate::clock::Instant;
-use crate::data_type::DataType;
-use crate::dictionary::Dictionary;
-use crate::entries::Entries;
-use crate::frame::{CanId, Frame};
-use crate::node_id::NodeId;
+use crate::access::application::Application;
+use crate::access::application::Entries;
+use crate::access::dictionary::Dictionary;
+use crate::access::table_dictionary::TableDictionary;
+use crate::bus::clock::Instant;
+use crate::bus::frame::{CanId, Frame};
+use crate::bus::node_id::NodeId;
 use crate::sdo::Channel;
 use crate::table::{Attributes, Block, Directory, EntryRow, Flags, NONE, Parts, Place, Storage, Table};
-use crate::table_dictionary::TableDictionary;
+use crate::value::data_type::DataType;
 
 const RW: Flags = Flags::READ.with(Flags::WRITE);
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
 use firmware_glue::node::{NodeHandler, Reset};
-use firmware_glue::parameter_groups::{ALL, Command};
-use firmware_glue::pdo_engine::PdoHandler;
+use firmware_glue::pdo::engine::PdoHandler;
+use firmware_glue::storage::{ALL, Command};
 use firmware_glue::{AbortCode, Application, Dictionary, EntryId, NodeId, Storage};
 
 use super::LiveDictionary;

@@ -61,9 +61,9 @@ fn place(place: &Place) -> Json {
     match place {
         Place::System => json!({"of": "system"}),
         Place::Device => json!({"of": "device"}),
-        Place::Object(index) => json!({"of": "object", "index": format!("0x{:04X}", index.0)}),
+        Place::Object(index) => json!({"of": "object", "index": index.notation()}),
         Place::Entries { index, first, last } => {
-            json!({"of": "entries", "index": format!("0x{:04X}", index.0), "first": first.0, "last": last.0})
+            json!({"of": "entries", "index": index.notation(), "first": first.0, "last": last.0})
         }
         Place::Unit(name) => json!({"of": "unit", "name": name}),
         Place::Type(name) => json!({"of": "type", "name": name}),

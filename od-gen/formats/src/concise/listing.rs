@@ -161,7 +161,7 @@ fn record_json(record: &Record<'_>, reading: &Reading) -> Json {
         .collect();
     json!({
         "offset": record.offset,
-        "index": format!("0x{:04X}", record.id.index.0),
+        "index": record.id.index.notation(),
         "sub": record.id.sub.0,
         "name": reading.name,
         "bytes": hexadecimal_bytes(record.bytes, ""),

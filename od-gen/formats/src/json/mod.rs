@@ -7,6 +7,7 @@ mod rules;
 mod types;
 
 use od_spec::Commissioning;
+use od_spec::eds::MARK;
 use od_spec::model::{self, Date, DateTime, Devices, Dictionary, EntryId, System, Text};
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
@@ -16,8 +17,6 @@ use document::DocumentView;
 use node::NodeView;
 use rules::{ConstraintView, ErratumView, ErrorView, MachineView};
 use types::{TypeView, UnitView};
-
-use crate::hexadecimal;
 
 /// Version of the format; raised when a consumer would have to change.
 const FORMAT: u32 = 1;
@@ -38,6 +37,7 @@ fn print(system: &System, devices: &[String], node: Option<NodeView<'_>>) -> Vec
     let wanted = |device: &&Dictionary| devices.includes(&device.key);
     let dump = SystemView {
         od_json: FORMAT,
+        made: MARK,
         title: &system.title,
         languages: &system.languages,
         vendor: json!({"name": system.vendor.name, "number": system.vendor.number}),
@@ -63,6 +63,7 @@ fn print(system: &System, devices: &[String], node: Option<NodeView<'_>>) -> Vec
 #[serde(rename_all = "kebab-case")]
 struct SystemView<'a> {
     od_json: u32,
+    made: &'static str,
     title: &'a str,
     languages: &'a [String],
     vendor: Json,
@@ -92,12 +93,12 @@ const fn words(text: &Text) -> Words<'_> {
 }
 
 fn index(index: model::Index) -> String {
-    hexadecimal::prefixed(index.0, 4)
+    index.notation()
 }
 
 /// `0x6040`, or `0x30FA.3` for a sub-index other than 0.
 fn entry_id(id: EntryId) -> String {
-    if id.sub.0 == 0 { index(id.index) } else { format!("{}.{}", index(id.index), id.sub) }
+    id.notation()
 }
 
 fn date(date: Date) -> String {

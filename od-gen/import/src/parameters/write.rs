@@ -114,7 +114,7 @@ fn alone(
     set: &Value,
     node: u8,
 ) -> Item {
-    let by_index = format!("0x{:04X}", id.index.0);
+    let by_index = id.index.notation();
     let keys = [spelled(&object.name), by_index];
     let ways = ways(id, entry, set);
     let found = pairs(&keys, &ways).find(|(key, way)| reads(names, node, key, way, None, id, set));
@@ -148,7 +148,7 @@ fn object_key(names: &SettingNames<'_>, object: &Object) -> String {
     if names.object(&object.name) == Some(object.index) {
         spelled(&object.name)
     } else {
-        format!("0x{:04X}", object.index.0)
+        object.index.notation()
     }
 }
 

@@ -125,6 +125,6 @@ fn allowed_rule(broken: &Broken) -> Node {
         1 => format!("as in the original: {}", broken.first),
         _ => "as in the original".to_owned(),
     };
-    let at = at.iter().map(|index| Node::Plain(format!("0x{:04X}", index.0))).collect();
+    let at = at.iter().map(|index| Node::Plain(index.notation())).collect();
     Node::Map(vec![Item::new("at", one_or_more(at)), Item::new("about", Node::text(reason))])
 }

@@ -9,7 +9,7 @@ use super::node::{Item, Node, Spot};
 
 /// `0x2000`.
 pub(super) fn key(index: Index) -> String {
-    format!("0x{:04X}", index.0)
+    index.notation()
 }
 
 /// An object with everything that the model says about it.

@@ -177,8 +177,7 @@ impl Names {
     fn node(&self, id: EntryId) -> Node {
         match self.by_id.get(&id) {
             Some(name) => Node::text(name.clone()),
-            None if id.sub.0 == 0 => Node::Plain(format!("0x{:04X}", id.index.0)),
-            None => Node::Plain(format!("0x{:04X}.{}", id.index.0, id.sub)),
+            None => Node::Plain(id.notation()),
         }
     }
 }

@@ -79,11 +79,7 @@ fn references(wanted: &Wanted<'_>, before: &str, fits: impl Fn(&Entry) -> bool) 
 
 /// `0x6041`, `0x30FA.3`.
 fn reference(object: &Object, id: EntryId) -> String {
-    if object.is_structured() {
-        format!("0x{:04X}.{}", id.index.0, id.sub)
-    } else {
-        format!("0x{:04X}", id.index.0)
-    }
+    if object.is_structured() { format!("{}.{}", id.index.notation(), id.sub) } else { id.index.notation() }
 }
 
 /// Type, unit and access.
@@ -100,7 +96,7 @@ pub(super) fn objects(wanted: &Wanted<'_>) -> Vec<Offer> {
     objects.sort_by_key(|object| object.index);
     objects.dedup_by(|one, other| one.index == other.index && one.name == other.name);
     let offer = |object: &Object| {
-        let label = format!("0x{:04X}", object.index.0);
+        let label = object.index.notation();
         Offer::word(&label, CompletionItemKind::STRUCT).detail(format!(
             "{} {}",
             object.name,

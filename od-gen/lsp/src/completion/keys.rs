@@ -1,7 +1,7 @@
 //! The keys of the language.
 
 use lsp_types::CompletionItemKind;
-use od_spec::keys::{Key, Keys, Shape, name_today};
+use od_spec::keys::{Key, Keys, Shape};
 use od_spec::yaml::Node;
 
 use super::items::{Insert, Offer, Written};
@@ -10,9 +10,7 @@ use super::{Insertion, MARK, Wanted, is_collection};
 /// The keys of a map that are not there yet, those that have to be there first.
 pub(super) fn of_map(map: &Node, keys: &'static Keys, written: &Written, wanted: &Wanted<'_>) -> Vec<Offer> {
     let is_there = |key: &Key| {
-        map.entries().iter().any(|(name, _)| {
-            !name.value.contains(MARK) && name_today(&name.value, keys).unwrap_or(&name.value) == key.name
-        })
+        map.entries().iter().any(|(name, _)| !name.value.contains(MARK) && name.value == key.name)
     };
     let missing = keys.keys.iter().filter(|key| !is_there(key));
     missing.map(|key| offer(key, written, wanted.insertion)).collect()

@@ -65,7 +65,7 @@ fn objects_of_libraries(wanted: &Wanted<'_>, written: &Written) -> Vec<Offer> {
     libraries
         .flat_map(|library| {
             library.objects.iter().map(move |(index, described)| {
-                let label = format!("0x{:04X}", index.0);
+                let label = index.notation();
                 let object = &described.object;
                 let entry = object.entries.iter().find(|entry| !object.is_structured() || entry.sub.0 > 0);
                 let data_type = entry.map(|entry| entry.data_type.to_string()).unwrap_or_default();

@@ -16,13 +16,13 @@ mod types;
 mod value;
 mod values;
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use crate::plan::Plan;
 
-/// The layout of `firmware-glue` that is printed for: `firmware_glue::table::Table::generated` tells when it changes.
-const LAYOUT: u32 = 2;
+/// The layout of `firmware-glue` that is printed for; its module of this name describes when the number changes.
+const LAYOUT: &str = "generated_for_layout_1";
 
 /// The items of a dictionary's module. One import reaches out of it, and its types do not come from macros: where the crate has no
 /// `firmware-glue`, that import is the one error.
@@ -44,13 +44,10 @@ pub(super) fn tokens(plan: &Plan<'_>) -> TokenStream {
         plan.lookup_tables(),
         plan.tables(),
     ];
-    let glue = format_ident!("generated_for_layout_{LAYOUT}");
-    let (layout, dictionary) = (Literal::u32_unsuffixed(LAYOUT), format_ident!("{}", plan.name));
+    let glue = format_ident!("{LAYOUT}");
     quote! {
         use ::firmware_glue as firmware;
         use self::firmware::#glue as glue;
-
-        firmware::stand_in!(#layout, #dictionary, Entry);
 
         #(#parts)*
     }

@@ -80,11 +80,11 @@ impl Plan<'_> {
         let constraints = self.constraints();
         let entry_of_row = self.entry_of_row();
         quote! {
-            impl glue::Entries for #name {
+            impl firmware::Entries for #name {
                 type Entry = Entry;
             }
 
-            impl glue::Dictionary<'static> for #name {
+            impl firmware::Dictionary<'static> for #name {
                 #[inline]
                 fn table(&self) -> &'static glue::Table<'static> {
                     &TABLE
@@ -188,7 +188,7 @@ impl Plan<'_> {
             }
         });
         quote! {
-            impl glue::Constrained for #name {
+            impl firmware::Constrained for #name {
                 const CONSTRAINTS: &'static [glue::Constraint<Self>] = &[#(#list),*];
             }
 

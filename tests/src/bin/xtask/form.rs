@@ -22,20 +22,7 @@ const RULES: [&str; 3] = ["od-spec/src/check", "od-spec/src/eds/check", "od-spec
 /// Features of which each is also tried alone.
 const FEATURES: [(&str, &[&str]); 3] = [
     ("od-gen", &["", "format"]),
-    (
-        "firmware-glue",
-        &[
-            "",
-            "critical-section",
-            "defmt",
-            "embedded-can",
-            "node",
-            "sdo-block",
-            "sdo-client",
-            "sdo-server",
-            "storage",
-        ],
-    ),
+    ("firmware-glue", &["", "critical-section", "defmt", "embedded-can", "sdo-block", "storage"]),
     ("od-spec", &["", "xdd"]),
 ];
 

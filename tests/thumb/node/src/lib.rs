@@ -15,7 +15,7 @@ use embedded_can::nb::Can;
 use firmware_glue::frame::Frame;
 use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
 use firmware_glue::node::{NodeHandler, Reset};
-use firmware_glue::pdo_engine::PdoHandler;
+use firmware_glue::pdo::engine::PdoHandler;
 use firmware_glue::storage::{ALL, Command, ParameterStore};
 use firmware_glue::{AbortCode, Application, Dictionary, EntryId, Node, NodeId, Storage};
 

@@ -7,7 +7,7 @@ use core::hint::black_box;
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind, ReadNorFlash};
 use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
 use firmware_glue::node::{NodeHandler, Reset};
-use firmware_glue::pdo_engine::PdoHandler;
+use firmware_glue::pdo::engine::PdoHandler;
 use firmware_glue::storage::{ALL, Command, ParameterStore};
 use firmware_glue::{AbortCode, Application, Dictionary as _, NodeId};
 use od_generated::pmc::{Entry, Pmc as Device};

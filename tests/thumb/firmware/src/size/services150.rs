@@ -9,7 +9,7 @@ use cortex_m_rt::entry;
 use firmware_glue::clock::Instant;
 use firmware_glue::frame::Frame;
 use firmware_glue::nmt::{Command, ErrorControl, Nmt, Service, State, Transition};
-use firmware_glue::pdo_engine::PdoEngine;
+use firmware_glue::pdo::engine::PdoEngine;
 use firmware_glue::sdo::{Channel, SdoServer};
 use firmware_glue::{Dictionary, NodeId};
 use panic_halt as _;
