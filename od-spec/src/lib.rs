@@ -23,17 +23,15 @@
 //! ```
 
 mod ast;
+mod catalogue;
 mod check;
 mod commissioning;
 mod compile;
 mod decode;
 pub mod diag;
 pub mod eds;
-mod explain;
 mod files;
 mod fix;
-#[cfg(feature = "reference")]
-mod json_schema;
 pub mod keys;
 mod layout;
 mod library;
@@ -44,8 +42,6 @@ mod notation;
 mod parameters;
 mod parts;
 pub mod plant;
-#[cfg(feature = "reference")]
-mod reference;
 mod resolve;
 mod rules;
 pub mod source;
@@ -55,6 +51,7 @@ pub mod wording;
 pub mod xdd;
 pub mod yaml;
 
+pub use catalogue::{all_codes, code};
 pub use check::allowed::can_be_allowed;
 pub use check::codes as rule_codes;
 pub use check::departures::departures;
@@ -64,13 +61,10 @@ pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues, Te
 pub use compile::{Compiled, Strictness, compile, compile_as, is_specification};
 pub use decode::is_device_key;
 pub use diag::nearest;
-pub use explain::{all_codes, code, explanation};
 pub use files::{Loader, NoFiles, add_source, read_text};
 pub use fix::{Change, Fixed, fix};
-#[cfg(feature = "reference")]
-pub use json_schema::{json_schema, parameter_schema, plant_schema, plant_schema_of};
 pub use layout::layout;
-pub use library::shipped::LIBRARIES;
+pub use library::shipped::{LIBRARIES, features as features_of_text};
 pub use library::{Feature, Library, LibraryObject, library, library_in};
 pub use notation::{expr, name_pattern, scalar};
 pub use parameters::{
@@ -78,8 +72,6 @@ pub use parameters::{
     is_parameter_file, parameter_file, settings, settings_of_map,
 };
 pub use parts::part_of;
-#[cfg(feature = "reference")]
-pub use reference::reference;
 pub use text::{ascii, encoding, visible};
 
 /// The README's examples compile and run.

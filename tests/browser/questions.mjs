@@ -116,7 +116,7 @@ for (const [name, { questions, links }] of Object.entries(table)) {
 }
 
 // A page of which a busy machine makes something late, as it is on a fast one: the browser tells late of what it has laid out, so that tables fold after a link has
-// landed; and what an address asks for is found only after its target was shown.
+// landed; it goes late where the reader was; and what an address asks for is found only after its target was shown.
 const late = await browser.newContext();
 await late.addInitScript((delay) => {
   const { addEventListener } = document;
@@ -124,6 +124,8 @@ await late.addInitScript((delay) => {
     const isLate = kind === "contentvisibilityautostatechange";
     addEventListener.call(this, kind, isLate ? (event) => setTimeout(listener, delay, { target: event.target, skipped: event.skipped }) : listener, ...more);
   };
+  // A browser that goes back puts the reader where he was, unless the page does that itself.
+  addEventListener("load", () => setTimeout(() => { if (history.scrollRestoration === "auto") scrollTo(0, document.documentElement.scrollHeight / 2); }, delay));
   // What is folded is told to the check.
   new MutationObserver((changes) => { if (changes.some(({ target }) => target.matches(".folded"))) document.folded = performance.now(); })
     .observe(document, { subtree: true, attributeFilter: ["class"] });

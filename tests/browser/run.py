@@ -2,6 +2,7 @@
 """Use the generated documents like a reader: in Chromium, on paper, and through Asciidoctor.
 
     run.py DOCS...
+    run.py --install    only installs what npm brings
 
 DOCS are directories with HTML pages, `dump.json` and `context.json` (without these two, only the questions of `questions.json` are asked), or with `manual.adoc`, or with `hostile.json` and pages
 that hold its texts. Every HTML page is held against the HTML standard, and the search against how much it does at once. What npm brings is installed
@@ -75,6 +76,8 @@ def main() -> int:
         node, browser = program(["node"], "nodejs"), os.environ.get("CHROMIUM") or program(BROWSERS, "chromium")
         program(["pdftotext"], "poppler-utils")
         folder = install()
+        if sys.argv[1:] == ["--install"]:
+            return 0
     except Missing as error:
         print(f"error: {error}", file=sys.stderr)
         return 3

@@ -2,6 +2,7 @@
 """Print the manuals and read the paper.
 
     run.py DOCS...
+    run.py --install    only installs WeasyPrint
 
 DOCS are directories with `manual.html` and `context.json`. WeasyPrint makes `manual.pdf` beside them, pdftotext reads it, and all that the
 context says has to stand there: titles on the page that the contents name, captions beside what they name, cells, texts, warnings. What lies
@@ -303,6 +304,8 @@ def main() -> int:
         if not shutil.which("pdftotext"):
             raise Missing("pdftotext is missing; install poppler-utils")
         weasyprint = install()
+        if sys.argv[1:] == ["--install"]:
+            return 0
     except Missing as error:
         print(f"error: {error}", file=sys.stderr)
         return 3

@@ -2,6 +2,7 @@
 """Check generated EDS and DCF files with five CANopen tools of other people.
 
     run.py [--out CACHE] [--eds-dir generated/eds] [--dump generated/*.json] [--node 1] [--values FILE]
+    run.py [--out CACHE] --install
 
 Installs the tools into the cache, reads KEY.eds and KEY.dcf of every device in the dumps with each of
 them and compares what they read with the dump. With --values it reads KEY.dcf only, which must hold the
@@ -213,7 +214,11 @@ def main() -> int:
     parser.add_argument("--dump", type=Path, nargs="+", help="default: all of generated/")
     parser.add_argument("--node", type=int, default=1)
     parser.add_argument("--values", type=Path, help="values that the DCF of the only device must hold")
-    return run(parser.parse_args())
+    parser.add_argument("--install", action="store_true", help="install the tools, and read nothing")
+    args = parser.parse_args()
+    if args.install:
+        return 3 if installed(args.out.resolve())[1] else 0
+    return run(args)
 
 
 if __name__ == "__main__":

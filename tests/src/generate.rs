@@ -55,8 +55,8 @@ fn shipped() -> Result<Vec<GeneratedFile>, Failure> {
 /// As [`all`].
 pub fn texts() -> Result<Vec<GeneratedFile>, Failure> {
     Ok(vec![
-        ("od-spec/schema/od.schema.json".to_owned(), od_spec::json_schema().into_bytes()),
-        ("docs/language.md".to_owned(), od_spec::reference().into_bytes()),
+        ("od-spec/schema/od.schema.json".to_owned(), od_reference::json_schema().into_bytes()),
+        ("docs/language.md".to_owned(), od_reference::reference().into_bytes()),
         ("docs/messages.md".to_owned(), messages().into_bytes()),
         ("README.md".to_owned(), readme()?.into_bytes()),
     ])
@@ -146,7 +146,8 @@ fn messages() -> String {
     );
     for code in od_spec::all_codes() {
         let severity = code.severity.word();
-        let _ = write!(text, "\n## {code}: {}\n\n*{severity}* — {}", code.title, od_spec::explanation(code));
+        let _ =
+            write!(text, "\n## {code}: {}\n\n*{severity}* — {}", code.title, od_reference::explanation(code));
     }
     text
 }

@@ -13,7 +13,9 @@ pub mod plant;
 #[path = "../shared/shipped.rs"]
 pub mod shipped;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Severity};
@@ -29,6 +31,19 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_owned)
 }
 
+/// The variable with which tests try everything; without it, those that take long try a sample.
+pub const LONG: &str = "OD_TESTS_LONG";
+
+/// Whether tests try everything: `cargo xtask test --long`.
+pub fn is_long() -> bool {
+    std::env::var_os(LONG).is_some()
+}
+
+/// How many cases a test with random values tries: the first quarter, or all.
+pub fn cases(all: u32) -> u32 {
+    if is_long() { all } else { all.div_ceil(4) }
+}
+
 /// Whether a message is about what the manuals of the shipped devices say: they name no vendor-ID, have an element that is read back
 /// in an array of those that are written, and list modes of operation without all objects of CiA 402.
 pub fn is_said_by_manuals(diagnostic: &Diagnostic) -> bool {
@@ -41,7 +56,22 @@ pub fn is_said_by_manuals(diagnostic: &Diagnostic) -> bool {
 /// # Errors
 /// The file cannot be read, or the compiler has more to say than notes.
 pub fn compile_clean(path: &str) -> Result<System, Failure> {
-    compile_with_sources(path).map(|(system, _)| system)
+    /// What was compiled already, by path and text: many tests of one program look at the shipped devices.
+    static COMPILED: Mutex<BTreeMap<(String, String), System>> = Mutex::new(BTreeMap::new());
+    let key = (path.to_owned(), read(path)?);
+    let known = COMPILED.lock().ok().and_then(|compiled| compiled.get(&key).cloned());
+    if let Some(system) = known {
+        return Ok(system);
+    }
+    let (system, _) = compile_with_sources(path)?;
+    if let Ok(mut compiled) = COMPILED.lock() {
+        compiled.insert(key, system.clone());
+    }
+    Ok(system)
+}
+
+fn read(path: &str) -> Result<String, Failure> {
+    std::fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}").into())
 }
 
 /// [`compile_clean`], with the texts that were read.
@@ -49,9 +79,8 @@ pub fn compile_clean(path: &str) -> Result<System, Failure> {
 /// # Errors
 /// As [`compile_clean`].
 pub fn compile_with_sources(path: &str) -> Result<(System, SourceMap), Failure> {
-    let text = std::fs::read_to_string(root().join(path)).map_err(|error| format!("{path}: {error}"))?;
     let mut sources = SourceMap::new();
-    let root = sources.add(path, text);
+    let root = sources.add(path, read(path)?);
     let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut OfWorkspace);
     match system {
         Some(system) if diagnostics.clone().without_notes().is_empty() => Ok((system, sources)),

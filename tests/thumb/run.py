@@ -19,7 +19,7 @@ entry is what has a sub-index of its own, sub-index 0 of an array or record too.
 `test` runs on an emulated Cortex-M4:
 
     hello     a firmware starts and reports
-    access    every case of tests/tests/access.rs; firmware/build.rs makes them from the JSON dump
+    access    every case of tests/tests/rust/access.rs; firmware/build.rs makes them from the JSON dump
     alias     16-bit aliases of the PMC at the ends of their range
     sdo-instructions   how many instructions the SDO server takes for a request
 

@@ -664,6 +664,8 @@
     let name = location.hash.slice(1);
     try { name = decodeURIComponent(name); } catch { /* a `%` of its own */ }
     const named = targetOf(name), target = named?.matches("td > i") ? named.closest("tr") : named;
+    // On the way back the browser would put the reader where he was, at any time, also after this has landed.
+    history.scrollRestoration = name && target ? "manual" : "auto";
     if (!name || !target) return;
     const item = itemOf.get(target.closest("article.object, .intro, .part"));
     // What the search has put away is shown again: the row, or the card with everything.

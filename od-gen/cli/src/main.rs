@@ -145,7 +145,7 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(message) => return ExitCode::from(answer(&message)),
     };
-    let report = Report::new(cli.message_format().into(), cli.color);
+    let report = Report::new(cli.message_format(), cli.color);
     let (format, directory) = (cli.format, cli.directory.as_path());
     let code = match cli.command {
         Command::Build(args) => build::run(&args, directory, &report),

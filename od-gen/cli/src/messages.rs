@@ -1,7 +1,6 @@
 //! How messages are written, as the command line says it.
 
 use clap::{Args, ValueEnum};
-use od_spec::diag::render;
 
 /// How messages are written, said behind the command. `odgen docs` and `odgen diff` have formats of their own; there it is said before the command.
 #[derive(Debug, Args)]
@@ -11,7 +10,7 @@ pub(crate) struct Messages {
     pub format: Option<Format>,
 }
 
-#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// With the source lines, as rustc does
     #[default]
@@ -20,16 +19,6 @@ pub(crate) enum Format {
     Short,
     /// One JSON object per line
     Json,
-}
-
-impl From<Format> for render::Format {
-    fn from(format: Format) -> Self {
-        match format {
-            Format::Human => render::Format::Human,
-            Format::Short => render::Format::Short,
-            Format::Json => render::Format::Json,
-        }
-    }
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]

@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::Path;
 
+use od_formats::findings::json;
 use od_gen::condense;
 use od_gen::source::{FileLoader, compile_file};
-use od_spec::diag::render::{self, Format};
+use od_spec::diag::render;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::eds::is_eds;
 use od_spec::model::{Dictionary, System};
@@ -17,7 +18,7 @@ use od_spec::{Commissioning, Compiled};
 
 use crate::exit::{ERRORS, SUCCESS, USAGE};
 use crate::listing::{Most, for_people};
-use crate::messages::Color;
+use crate::messages::{Color, Format};
 use crate::progress::Audience;
 
 /// Writes diagnostics the way the user asked for.
@@ -58,7 +59,7 @@ impl Report {
     pub(crate) const fn audience(&self) -> Audience {
         match self.format {
             Format::Human | Format::Short => Audience::People,
-            Format::Json | Format::Github => Audience::Programs,
+            Format::Json => Audience::Programs,
         }
     }
 
@@ -90,7 +91,8 @@ impl Report {
                 };
                 for_people(diagnostics, sources, most, &shows, self.colour)
             }
-            format => render::render(diagnostics, sources, format, self.colour),
+            Format::Short => render::render(diagnostics, sources, render::Format::Short, self.colour),
+            Format::Json => json(diagnostics, sources),
         };
         let summary = render::summary(diagnostics);
         if self.format == Format::Human && !summary.is_empty() {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, LazyLock, OnceLock};
 
 use lsp_types::{Range, Uri};
-use od_gen::source::remark;
+use od_readers::remark;
 use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::eds::is_eds;
 use od_spec::model::{System, SystemSource};

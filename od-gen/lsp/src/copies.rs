@@ -12,8 +12,9 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use lsp_types::Uri;
 use od_gen::Artifact;
 use od_gen::files::{Existing, write_set};
+use od_reference::explanation;
+use od_spec::LIBRARIES;
 use od_spec::diag::Code;
-use od_spec::{LIBRARIES, explanation};
 
 use super::uri::uri_of;
 

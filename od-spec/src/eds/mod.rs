@@ -15,7 +15,6 @@ pub(crate) mod names;
 pub(crate) mod number;
 pub(crate) mod owner;
 pub(crate) mod read;
-pub mod readers;
 mod scan;
 pub(crate) mod view;
 

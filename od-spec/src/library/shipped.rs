@@ -16,7 +16,7 @@ pub const LIBRARIES: &[(&str, &str)] = &[
 ];
 
 /// The features of a library of [`LIBRARIES`] with what it says about each; nothing is looked up.
-pub(crate) fn features(name: &str, text: &str) -> Vec<(String, Node)> {
+pub fn features(name: &str, text: &str) -> Vec<(String, Node)> {
     let mut sources = SourceMap::new();
     let file = sources.add(name, text);
     let tree = yaml::parse(file, sources.file(file), &mut Diagnostics::new());

@@ -4,7 +4,6 @@ use std::fmt;
 
 /// How the characters of a text are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
 pub enum Encoding {
     /// Nothing but ASCII, as CiA 306 4.2 wants it.
     Ascii,

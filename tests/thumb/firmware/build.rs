@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::{env, fs};
 
-/// What makes the cases of tests/tests/access.rs.
+/// What makes the cases of tests/tests/rust/access.rs.
 #[allow(dead_code)]
 #[path = "../../src/access_cases.rs"]
 mod access_cases;

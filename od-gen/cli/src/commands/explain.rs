@@ -24,7 +24,7 @@ pub(crate) fn run(args: &ExplainArgs) -> u8 {
             "{code} ({}): {}\n\n{}",
             code.severity.word(),
             code.title,
-            od_spec::explanation(code)
+            od_reference::explanation(code)
         )),
         None => {
             let id = visible(id);

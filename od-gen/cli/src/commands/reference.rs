@@ -3,5 +3,5 @@
 use crate::report::print;
 
 pub(crate) fn run() -> u8 {
-    print(&od_spec::reference())
+    print(&od_reference::reference())
 }

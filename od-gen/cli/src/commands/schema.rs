@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use clap::Args;
 use od_gen::source::{FileLoader, open};
+use od_reference::{plant_schema, plant_schema_of};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 use od_spec::plant::{is_plant, plant};
 use od_spec::source::{FileId, SourceMap};
-use od_spec::{plant_schema, plant_schema_of};
 
 use crate::exit::ERRORS;
 use crate::report::{Report, print, print_json, shown};
@@ -33,10 +33,10 @@ pub(crate) fn run(args: &SchemaArgs, report: &Report) -> u8 {
     if let Some(files) = &args.plant {
         return of_plants(files, report);
     }
-    let Some(spec) = &args.params else { return print(&od_spec::json_schema()) };
+    let Some(spec) = &args.params else { return print(&od_reference::json_schema()) };
     let Some(system) = report.compile(spec) else { return ERRORS };
     match report.device_or_only(&system, args.device.as_deref()) {
-        Ok(device) => print_json(od_spec::parameter_schema(&system, device).as_bytes()),
+        Ok(device) => print_json(od_reference::parameter_schema(&system, device).as_bytes()),
         Err(code) => code,
     }
 }

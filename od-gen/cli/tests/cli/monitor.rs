@@ -3,7 +3,7 @@
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::process::{Child, Command, Stdio};
 
-use crate::served::Served;
+use crate::served::{Served, interrupt};
 use crate::{LAMP, Scratch, code, odgen, stderr};
 
 /// A lamp that tells its brightness, its errors and that it lives.
@@ -81,11 +81,9 @@ fn what_goes_over_the_bus_is_told_until_somebody_ends_it() {
         "185h  lamp (node 5)  TPDO1  2000h brightness = 60 %",
         "085h  lamp (node 5)  EMCY  4210h too hot – It is over 80 degrees; error register 0x09 (generic error, temperature)",
     ]);
-    let id = watched.monitor.id().to_string();
-    if !cfg!(unix) {
+    if !interrupt(&watched.monitor) {
         return;
     }
-    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
     let summary = watched.line();
     assert!(summary.contains(" frames in "), "{summary}");
     let node = watched.line();

@@ -61,3 +61,13 @@ impl Drop for Served {
         let _ = self.child.wait();
     }
 }
+
+/// Ends a program as Ctrl-C does; `false` where the system has no signals.
+pub(crate) fn interrupt(program: &Child) -> bool {
+    #[cfg(unix)]
+    rustix::process::kill_process(rustix::process::Pid::from_child(program), rustix::process::Signal::INT)
+        .unwrap();
+    #[cfg(not(unix))]
+    let _ = program;
+    cfg!(unix)
+}

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use od_gen::source::remark;
+use od_readers::remark;
 use od_spec::diag::Severity;
 use od_spec::source::SourceMap;
 use od_spec::{Loader, add_source, compile};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use od_gen::source::remark;
+use od_readers::remark;
 use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::names::{DefinitionId, Names};
 use od_spec::source::{FileId, SourceMap, Span};

@@ -2,21 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use crate::parts::Area;
+use crate::parts::{self, Area};
 
 /// What there is to do.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Task {
+    /// Look at the form and run the unit tests.
+    Check,
     /// Run the tests.
     Test(TestOptions),
-    /// Run the part of the tests that reads the documents in a browser.
-    Browser,
     /// Write everything that is generated and checked in.
     Generate,
     /// Tell what of that is not current.
     CheckGenerated,
-    /// Package the crates that users depend on.
-    Package,
     /// Take a directory of foreign EDS and DCF files through everything.
     Corpus(String),
     /// Try mutants of files, with the arguments of the program `fuzz`.
@@ -26,23 +24,35 @@ pub(crate) enum Task {
     /// Measure the reading of EDS files beside other readers, with the arguments of tests/bench/eds/reading.py.
     BenchReading(Vec<String>),
     /// Print a text about a task, or about all.
-    Help(&'static str),
+    Help(String),
 }
 
 /// How the tests are run.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct TestOptions {
+    pub(crate) choice: Choice,
     /// What happens with parts whose tools are missing.
     pub(crate) gaps: Gaps,
     /// Parts that the user does not want to run.
     pub(crate) unwanted: BTreeSet<Area>,
 }
 
+/// Which parts of the tests run.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Choice {
+    /// Those of the gate.
+    Gate,
+    /// Those that are outside it.
+    Long,
+    /// Those with these names.
+    Named(Vec<String>),
+}
+
 /// What a part of the tests means that could not run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Gaps {
-    /// It is told at the end, and the tests pass if what ran has passed.
-    Told,
+    /// It is reported at the end, and the tests pass if what ran has passed.
+    Reported,
     /// The tests fail.
     Refused,
 }
@@ -50,56 +60,49 @@ pub(crate) enum Gaps {
 pub(crate) const HELP: &str = "\
 cargo xtask TASK
 
-  test [--all] [--without-browser] [--without-emulator]
+  check               format, lints, documentation and unit tests: about a minute
+  test [--all | --long] [--without-browser] [--without-emulator] [PART…]
                       run the tests: every part that this machine has the tools for
-  browser             the part of `test` that reads the documents in Chromium
-  generate [--check]  rewrite everything that is generated and checked in, or tell what is not current
-  package             package the crates that users depend on, and compile each from its package
+  generate [--check]  rewrite everything that is generated and checked in, or report what is not current
   corpus DIR          take the EDS, DCF, XDD and XDC files of a directory through everything
   fuzz [--of TEXTS] [--seconds N] [--seed N] [FILE|DIR…]
                       change files by chance, and see whether anything breaks
-  bench [ARGUMENT…]   measure odgen beside other tools; `bench --help` lists the arguments
+  bench [ARGUMENT…]   compare odgen with other tools; `bench --help` lists the arguments
   bench eds [ARGUMENT…]
-                      measure the reading of EDS files beside other readers; `bench eds --help` lists the arguments
+                      compare the reading of EDS files with other readers; `bench eds --help` lists the arguments
   help [TASK]         this text, or one about a task
 ";
 
-const TEST: &str = "\
-cargo xtask test [--all] [--without-browser] [--without-emulator]
+const CHECK: &str = "\
+cargo xtask check
 
-Runs the Rust tests, the fuzzer for a minute, five EDS readers and an SDO client that others wrote, the documents in a browser, and firmware on an
-emulated Cortex-M. First it lists the tools that are missing, each with the line that installs it; then it runs every part
-whose tools are there, also after a failure; at the end it says what passed, what failed, and what was left out and why.
-Beside the Rust tests run the parts that nobody waits for; what these print follows after the Rust tests.
-
-  --all               fail when anything is left out
-  --without-browser   do not read the documents in Chromium and on paper
-  --without-emulator  do not build the firmware, and do not run it in QEMU
-
-What the parts install for themselves goes into target/, from the registries of Python, npm and Rust; the target
-thumbv7em-none-eabi is added with rustup where rustup can fetch it.
-
-Exit codes: 0 all that ran has passed, 1 something failed (with --all, or was left out), 2 wrong command line.
+Checks the format, the lints of clippy and the documentation, and runs the unit tests. It is the beginning of `cargo xtask test`.
 ";
 
-const BROWSER: &str = "\
-cargo xtask browser
+const TEST: &str = "\
+cargo xtask test [--all | --long] [--without-browser] [--without-emulator] [PART…]
 
-Makes the documents of several specifications and reads them in Chromium; screenshots and PDFs go to target/browser/seen.
-Needs Python, Node.js with npm, Chromium (the variable CHROMIUM names another program) and pdftotext.
+Checks the form, runs the Rust tests, a short fuzzer, five EDS readers and an SDO client that others wrote, the documents in a
+browser, and firmware on an emulated Cortex-M. First it lists the tools that are missing, each with the line that installs it; then
+it runs every part whose tools are there, also after a failure; at the end it prints what passed, what failed, what was left out
+and why, and how long each part took. Other parts run at the same time as the Rust tests; what they print follows after these.
+
+  --all               fail when anything is left out
+  --long              run what is outside the gate instead, before a release; fail when anything is left out
+  --without-browser   do not read the documents in Chromium and on paper
+  --without-emulator  do not build the firmware, and do not run it in QEMU
+  PART…               run only these parts, of the gate or outside it; fail when anything is left out
+
+Screenshots and PDFs of the documents go to target/browser/seen. What the parts install for themselves goes into target/, from the
+registries of Python, npm and Rust; the target thumbv7em-none-eabi is added with rustup where rustup can fetch it.
+
+Exit codes: 0 all that ran has passed, 1 something failed (or was left out where it may not), 2 wrong command line.
 ";
 
 const GENERATE: &str = "\
 cargo xtask generate [--check]
 
 Rewrites everything that is generated and checked in. With --check it writes nothing, and fails with the first difference.
-";
-
-const PACKAGE: &str = "\
-cargo xtask package
-
-Packages the crates that users depend on, as `cargo publish` would, and compiles each from its package. Fails when a package
-lacks its README, a licence text or a fact that a registry shows.
 ";
 
 const CORPUS: &str = "\
@@ -153,7 +156,7 @@ tests/bench/eds/reading.py.
 pub(crate) fn parse(arguments: &[&str]) -> Result<Task, String> {
     match arguments {
         [] => Err("no task is named".to_owned()),
-        ["help" | "--help" | "-h"] => Ok(Task::Help(HELP)),
+        ["help" | "--help" | "-h"] => Ok(Task::Help(HELP.to_owned())),
         ["help", task] => help(task),
         // The scripts of the benchmarks answer `--help` themselves.
         ["bench", "eds", rest @ ..] => Ok(Task::BenchReading(owned(rest))),
@@ -162,11 +165,10 @@ pub(crate) fn parse(arguments: &[&str]) -> Result<Task, String> {
         }
         ["bench", rest @ ..] => Ok(Task::Bench(owned(rest))),
         [task, options @ ..] if options.contains(&"--help") || options.contains(&"-h") => help(task),
+        ["check"] => Ok(Task::Check),
         ["test", options @ ..] => test(options).map(Task::Test),
-        ["browser"] => Ok(Task::Browser),
         ["generate"] => Ok(Task::Generate),
         ["generate", "--check"] => Ok(Task::CheckGenerated),
-        ["package"] => Ok(Task::Package),
         ["corpus", directory] => Ok(Task::Corpus((*directory).to_owned())),
         ["corpus"] => Err("`corpus` wants a directory".to_owned()),
         [task, rest @ ..] => {
@@ -182,30 +184,44 @@ fn owned(arguments: &[&str]) -> Vec<String> {
 
 fn help(task: &str) -> Result<Task, String> {
     match task {
-        "test" => Ok(Task::Help(TEST)),
-        "browser" => Ok(Task::Help(BROWSER)),
-        "generate" => Ok(Task::Help(GENERATE)),
-        "package" => Ok(Task::Help(PACKAGE)),
-        "corpus" => Ok(Task::Help(CORPUS)),
-        "fuzz" => Ok(Task::Help(FUZZ)),
-        "bench" => Ok(Task::Help(BENCH)),
-        "help" => Ok(Task::Help(HELP)),
+        "check" => Ok(Task::Help(CHECK.to_owned())),
+        "test" => Ok(Task::Help(format!("{TEST}\n{}", parts::listed()))),
+        "generate" => Ok(Task::Help(GENERATE.to_owned())),
+        "corpus" => Ok(Task::Help(CORPUS.to_owned())),
+        "fuzz" => Ok(Task::Help(FUZZ.to_owned())),
+        "bench" => Ok(Task::Help(BENCH.to_owned())),
+        "help" => Ok(Task::Help(HELP.to_owned())),
         _ => Err(format!("there is no task `{task}`")),
     }
 }
 
 fn test(options: &[&str]) -> Result<TestOptions, String> {
-    let mut chosen = TestOptions { gaps: Gaps::Told, unwanted: BTreeSet::new() };
+    let mut chosen = TestOptions { choice: Choice::Gate, gaps: Gaps::Reported, unwanted: BTreeSet::new() };
+    let mut named = Vec::new();
     for &option in options {
         match option {
             "--all" => chosen.gaps = Gaps::Refused,
+            "--long" => chosen.choice = Choice::Long,
             "--without-browser" => drop(chosen.unwanted.insert(Area::Browser)),
             "--without-emulator" => drop(chosen.unwanted.insert(Area::Firmware)),
+            part if parts::named(part).is_some() => named.push(part.to_owned()),
             _ => return Err(format!("`test` does not take `{option}`")),
         }
     }
     if chosen.gaps == Gaps::Refused && !chosen.unwanted.is_empty() {
         return Err("`--all` wants every part, `--without-…` leaves one out".to_owned());
+    }
+    if !named.is_empty() {
+        if chosen != (TestOptions { choice: Choice::Gate, gaps: Gaps::Reported, unwanted: BTreeSet::new() }) {
+            return Err("`test` takes either names of parts or options".to_owned());
+        }
+        chosen.choice = Choice::Named(named);
+    }
+    if chosen.choice != Choice::Gate {
+        if chosen.gaps == Gaps::Refused {
+            return Err("`--all` is the gate, `--long` what is outside it".to_owned());
+        }
+        chosen.gaps = Gaps::Refused;
     }
     Ok(chosen)
 }
@@ -215,21 +231,25 @@ mod tests {
     use super::*;
 
     fn test_with(gaps: Gaps, unwanted: &[Area]) -> Task {
-        Task::Test(TestOptions { gaps, unwanted: unwanted.iter().copied().collect() })
+        Task::Test(TestOptions { choice: Choice::Gate, gaps, unwanted: unwanted.iter().copied().collect() })
     }
 
     #[test]
     fn tasks_and_their_options_are_understood() {
-        assert_eq!(parse(&["test"]), Ok(test_with(Gaps::Told, &[])));
+        assert_eq!(parse(&["test"]), Ok(test_with(Gaps::Reported, &[])));
         assert_eq!(parse(&["test", "--all"]), Ok(test_with(Gaps::Refused, &[])));
         assert_eq!(
             parse(&["test", "--without-emulator", "--without-browser"]),
-            Ok(test_with(Gaps::Told, &[Area::Browser, Area::Firmware]))
+            Ok(test_with(Gaps::Reported, &[Area::Browser, Area::Firmware]))
         );
-        assert_eq!(parse(&["browser"]), Ok(Task::Browser));
+        let refused =
+            |choice| Task::Test(TestOptions { choice, gaps: Gaps::Refused, unwanted: BTreeSet::new() });
+        assert_eq!(parse(&["test", "--long"]), Ok(refused(Choice::Long)));
+        let named = Choice::Named(vec!["browser".to_owned(), "sdo".to_owned()]);
+        assert_eq!(parse(&["test", "browser", "sdo"]), Ok(refused(named)));
+        assert_eq!(parse(&["check"]), Ok(Task::Check));
         assert_eq!(parse(&["generate"]), Ok(Task::Generate));
         assert_eq!(parse(&["generate", "--check"]), Ok(Task::CheckGenerated));
-        assert_eq!(parse(&["package"]), Ok(Task::Package));
         assert_eq!(parse(&["corpus", "eds"]), Ok(Task::Corpus("eds".to_owned())));
         assert_eq!(
             parse(&["fuzz", "--seed", "7"]),
@@ -244,16 +264,12 @@ mod tests {
         let lines =
             HELP.lines().filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
         let tasks: Vec<&str> = lines.filter_map(|line| line.split(' ').next()).collect();
-        assert_eq!(
-            tasks,
-            ["test", "browser", "generate", "package", "corpus", "fuzz", "bench", "bench", "help"]
-        );
+        assert_eq!(tasks, ["check", "test", "generate", "corpus", "fuzz", "bench", "bench", "help"]);
         for task in tasks {
             assert!(matches!(parse(&["help", task]), Ok(Task::Help(_))), "{task}");
         }
-        assert_eq!(parse(&["test", "--help"]), Ok(Task::Help(TEST)));
-        assert_eq!(parse(&["test", "--all", "-h"]), Ok(Task::Help(TEST)));
-        assert_eq!(parse(&["--help"]), Ok(Task::Help(HELP)));
+        assert!(matches!(parse(&["test", "--all", "-h"]), Ok(Task::Help(text)) if text.contains(TEST)));
+        assert_eq!(parse(&["--help"]), Ok(Task::Help(HELP.to_owned())));
     }
 
     #[test]
@@ -268,6 +284,9 @@ mod tests {
         assert_eq!(wrong(&["corpus", "a", "b"]), "`corpus` does not take `a b`");
         assert_eq!(wrong(&["test", "--al"]), "`test` does not take `--al`");
         assert_eq!(wrong(&["generate", "--chekc"]), "`generate` does not take `--chekc`");
+        assert_eq!(wrong(&["test", "brwoser"]), "`test` does not take `brwoser`");
+        assert_eq!(wrong(&["test", "browser", "--all"]), "`test` takes either names of parts or options");
+        assert_eq!(wrong(&["test", "--long", "--all"]), "`--all` is the gate, `--long` what is outside it");
         assert_eq!(
             wrong(&["test", "--all", "--without-browser"]),
             "`--all` wants every part, `--without-…` leaves one out"

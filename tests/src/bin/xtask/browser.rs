@@ -4,26 +4,32 @@ use docs_gen as docs;
 use od_formats::json;
 use od_gen::Artifact;
 use od_gen::files::write_all;
-use od_tests::generate::SPECS;
 use od_tests::{Failure, compile_clean, root};
 
 use crate::hostile;
+use crate::parts::Amount;
 use crate::runner::Runner;
 
+/// Documents: name of their directory, specification, language, and whether they are in the sample.
+const DOCUMENTS: [(&str, &str, &str, bool); 7] = [
+    ("fullmo-drive", "od-spec/devices/fullmo-drive.od.yaml", "en", false),
+    ("pitch-control-system", "od-spec/devices/pitch-control-system.od.yaml", "en", false),
+    ("fullmo-drive-de", "od-spec/devices/fullmo-drive.od.yaml", "de", false),
+    ("pitch-control-system-de", "od-spec/devices/pitch-control-system.od.yaml", "de", false),
+    ("everything", "tests/readers/everything.od.yaml", "en", true),
+    ("two", "tests/docs/two.od.yaml", "en", false),
+    ("two-de", "tests/docs/two.od.yaml", "de", true),
+];
+
 /// The documents as their readers see them.
-pub(crate) fn read_documents(runner: &mut Runner) -> Result<(), Failure> {
+pub(crate) fn read_documents(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     const DOCS: &str = "target/browser/docs";
     let mut directories = Vec::new();
-    let specs = SPECS.iter().map(|stem| (*stem, format!("od-spec/devices/{stem}.od.yaml"), "en"));
-    let more = [
-        ("fullmo-drive-de", "od-spec/devices/fullmo-drive.od.yaml", "de"),
-        ("pitch-control-system-de", "od-spec/devices/pitch-control-system.od.yaml", "de"),
-        ("everything", "tests/readers/everything.od.yaml", "en"),
-        ("two", "tests/docs/two.od.yaml", "en"),
-        ("two-de", "tests/docs/two.od.yaml", "de"),
-    ];
-    for (stem, path, language) in specs.chain(more.map(|(stem, path, lang)| (stem, path.to_owned(), lang))) {
-        let system = compile_clean(&path)?;
+    for (stem, path, language, is_in_sample) in DOCUMENTS {
+        if amount == Amount::Sample && !is_in_sample {
+            continue;
+        }
+        let system = compile_clean(path)?;
         let mut options = docs::options(&system, &[], Some(language));
         // The German texts of this one are many: they are searched, and its facts are compared in English.
         let is_compared = stem != "pitch-control-system-de";
@@ -49,7 +55,7 @@ pub(crate) fn read_documents(runner: &mut Runner) -> Result<(), Failure> {
         write_all(&root().join(DOCS), &set)?;
         directories.extend(["", "-asciidoc", "-print"].map(|kind| format!("{DOCS}/{stem}{kind}")));
     }
-    directories.extend(hostile::documents(DOCS)?);
+    directories.extend(hostile::documents(DOCS, amount)?);
     let directories: Vec<&str> = directories.iter().map(String::as_str).collect();
     runner.python("tests/browser/run.py", &directories)
 }

@@ -8,6 +8,8 @@ use od_spec::model::System;
 use od_tests::plant::{TEXTS, accepted, compiled, planted, sites, text_at};
 use od_tests::{Failure, root};
 
+use crate::parts::Amount;
+
 /// What stands in every place that takes it, with the number of the place; `__hostile` is what the browser looks for.
 const PAYLOADS: [(&str, &str); 3] = [
     (
@@ -33,10 +35,14 @@ const NOT_SHOWN: [(&str, &str); 6] = [
 ];
 
 /// The directories with the documents, below a directory of the workspace.
-pub(crate) fn documents(below: &str) -> Result<Vec<String>, Failure> {
+pub(crate) fn documents(below: &str, amount: Amount) -> Result<Vec<String>, Failure> {
     let sites = sites(TEXTS);
     let mut directories = Vec::new();
-    for (name, payload) in PAYLOADS {
+    let payloads = match amount {
+        Amount::Sample => &PAYLOADS[..1],
+        Amount::All => &PAYLOADS[..],
+    };
+    for &(name, payload) in payloads {
         let hostile = accepted(TEXTS, &sites, payload, &mut |_, _| ())
             .filter(|accepted| accepted.chosen.len() >= LEAST)
             .ok_or_else(|| format!("too few places take the texts of `{name}`"))?;

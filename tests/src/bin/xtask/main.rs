@@ -6,6 +6,7 @@ mod arguments;
 mod browser;
 mod configured;
 mod corpus;
+mod form;
 mod hostile;
 mod manuals;
 mod package;
@@ -13,6 +14,7 @@ mod parts;
 mod plain_c;
 mod readers;
 mod runner;
+mod rust_tests;
 mod summary;
 mod tools;
 mod virtual_nodes;
@@ -21,9 +23,9 @@ use std::collections::BTreeSet;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use arguments::{Gaps, Task, TestOptions, parse};
+use arguments::{Choice, Gaps, Task, TestOptions, parse};
 use od_tests::{Failure, generate};
-use parts::{Area, Part, Readiness, Turn};
+use parts::{Area, PARTS, Part, Readiness, Tier, Turn};
 use runner::{Output, Runner};
 use summary::{Outcome, Row, Verdict};
 use tools::Tool;
@@ -35,13 +37,14 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let result = match parse(&arguments) {
-        Ok(Task::Test(options)) => return test(&Part::ALL, &options),
-        Ok(Task::Browser) => {
-            return test(&[Part::Browser], &TestOptions { gaps: Gaps::Refused, unwanted: BTreeSet::new() });
+        Ok(Task::Check) => {
+            return test(&in_tier(|tier| tier == Tier::Check), Gaps::Refused, &BTreeSet::new());
+        }
+        Ok(Task::Test(TestOptions { choice, gaps, unwanted })) => {
+            return test(&chosen(&choice), gaps, &unwanted);
         }
         Ok(Task::Generate) => write(),
         Ok(Task::CheckGenerated) => check(),
-        Ok(Task::Package) => package::package(),
         Ok(Task::Corpus(directory)) => corpus::corpus(&directory),
         Ok(Task::Fuzz(rest)) => fuzz(&rest),
         Ok(Task::Bench(rest)) => bench("tests/bench/run.py", &rest),
@@ -74,25 +77,40 @@ fn bench(script: &str, arguments: &[String]) -> Result<(), Failure> {
     Runner::default().python(script, &arguments)
 }
 
-/// Runs every part that can run, and tells what became of each.
-fn test(parts: &[Part], options: &TestOptions) -> ExitCode {
-    let parts: Vec<Part> =
-        parts.iter().copied().filter(|part| !options.unwanted.contains(&part.area())).collect();
+/// The parts of the tiers that are wanted.
+fn in_tier(is_wanted: impl Fn(Tier) -> bool) -> Vec<&'static Part> {
+    PARTS.iter().filter(|part| is_wanted(part.tier)).collect()
+}
+
+/// The parts that a command line chooses.
+fn chosen(choice: &Choice) -> Vec<&'static Part> {
+    match choice {
+        Choice::Gate => in_tier(|tier| matches!(tier, Tier::Check | Tier::Gate)),
+        Choice::Long => in_tier(|tier| matches!(tier, Tier::Long(_))),
+        Choice::Named(names) => {
+            PARTS.iter().filter(|part| names.iter().any(|name| name == part.name)).collect()
+        }
+    }
+}
+
+/// Runs every part that can run, and reports what became of each.
+fn test(parts: &[&'static Part], gaps: Gaps, unwanted: &BTreeSet<Area>) -> ExitCode {
+    let (left_out, parts): (Vec<_>, Vec<_>) =
+        parts.iter().copied().partition(|part| unwanted.contains(&part.area));
     let found = find_tools(&parts);
     let missing = summary::missing(&parts, &found);
     if !missing.is_empty() {
         println!("missing on this machine; what needs it is left out, the rest runs:\n{missing}");
     }
     let mut rows = run_all(&parts, &found);
-    let unwanted = Part::ALL.into_iter().filter(|part| options.unwanted.contains(&part.area()));
-    rows.extend(unwanted.map(|part| Row {
+    rows.extend(left_out.into_iter().map(|part| Row {
         part,
         outcome: Outcome::Unwanted,
         counts: None,
         time: Duration::ZERO,
     }));
-    rows.sort_by_key(|row| row.part);
-    let summary = summary::summarize(&rows, &missing, options.gaps);
+    rows.sort_by_key(|row| row.part.position());
+    let summary = summary::summarize(&rows, &missing, gaps);
     print!("{}", summary.text);
     match summary.verdict {
         Verdict::Passed => ExitCode::SUCCESS,
@@ -101,9 +119,9 @@ fn test(parts: &[Part], options: &TestOptions) -> ExitCode {
 }
 
 /// The tools of this machine; where only the firmware's target is missing for its tests, rustup is asked for it.
-fn find_tools(parts: &[Part]) -> BTreeSet<Tool> {
+fn find_tools(parts: &[&Part]) -> BTreeSet<Tool> {
     let mut found = tools::found();
-    let wanted = parts.iter().any(|part| part.area() == Area::Firmware);
+    let wanted = parts.iter().any(|part| part.area == Area::Firmware);
     if wanted && found.contains(&Tool::Python) && !found.contains(&Tool::ThumbTarget) {
         println!("adding Rust's target for the firmware with rustup");
         if tools::add_target() {
@@ -114,13 +132,9 @@ fn find_tools(parts: &[Part]) -> BTreeSet<Tool> {
 }
 
 /// Runs the parts, as many at the same time as their turns allow.
-fn run_all(parts: &[Part], found: &BTreeSet<Tool>) -> Vec<Row> {
-    let of = |turn: Turn| parts.iter().copied().filter(move |part| part.turn() == turn);
-    if parts.contains(&Part::Rust) {
-        // Before anything runs beside: what is compiled takes the place of programs that others would be using. What is wrong is
-        // told by the part itself.
-        let _ = Runner::default().cargo(&["test", "--workspace", "--quiet", "--no-run"]);
-    }
+fn run_all(parts: &[&'static Part], found: &BTreeSet<Tool>) -> Vec<Row> {
+    let of = |turn: Turn| parts.iter().copied().filter(move |part| part.turn == turn);
+    prepare(parts);
     let (done, to_tell) = std::sync::mpsc::channel();
     let mut rows: Vec<Row> = std::thread::scope(|scope| {
         scope.spawn(move || {
@@ -138,6 +152,21 @@ fn run_all(parts: &[Part], found: &BTreeSet<Tool>) -> Vec<Row> {
     rows
 }
 
+/// Compiles what the parts run, and installs what they need from registries at the same time. The parts themselves report what is wrong.
+fn prepare(parts: &[&Part]) {
+    let begin = Instant::now();
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            for script in parts.iter().filter_map(|part| part.installer).collect::<BTreeSet<_>>() {
+                let _ = Runner { output: Output::Kept(Vec::new()), ..Runner::default() }
+                    .python(script, &["--install"]);
+            }
+        });
+        let _ = rust_tests::compile(&mut Runner::default(), parts);
+    });
+    println!("compiled and installed in {}", summary::time(begin.elapsed()));
+}
+
 /// Tells what was kept of a part.
 fn tell((row, output): (Row, Output)) -> Row {
     if let Output::Kept(text) = output {
@@ -146,7 +175,7 @@ fn tell((row, output): (Row, Output)) -> Row {
     row
 }
 
-fn run(part: Part, found: &BTreeSet<Tool>, output: Output) -> (Row, Output) {
+fn run(part: &'static Part, found: &BTreeSet<Tool>, output: Output) -> (Row, Output) {
     let mut runner = Runner { output, ..Runner::default() };
     let begin = Instant::now();
     let readiness = part.readiness(found);
@@ -154,8 +183,8 @@ fn run(part: Part, found: &BTreeSet<Tool>, output: Output) -> (Row, Output) {
     let outcome = if matches!(readiness, Readiness::Lacks(_)) {
         Outcome::LeftOut(reason.unwrap_or_default())
     } else {
-        runner.tell(&format!("\n== {}", part.title()));
-        match part.run(&mut runner) {
+        runner.tell(&format!("\n== {}", part.title));
+        match (part.run)(&mut runner) {
             Err(failure) => {
                 runner.tell(&format!("error: {failure}"));
                 Outcome::Failed(failure.to_string())

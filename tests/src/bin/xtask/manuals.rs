@@ -5,9 +5,10 @@ use od_gen::Artifact;
 use od_gen::files::write_all;
 use od_tests::{Failure, compile_clean, root};
 
+use crate::parts::Amount;
 use crate::runner::Runner;
 
-/// A manual: name of its directory, specification, language, and whether it shows errata.
+/// A manual: name of its directory, specification, language, and whether it shows errata. The sample is the last ones.
 const MANUALS: [(&str, &str, &str, bool); 5] = [
     ("pitch-control-system", "od-spec/devices/pitch-control-system.od.yaml", "en", false),
     ("fullmo-drive-de", "od-spec/devices/fullmo-drive.od.yaml", "de", false),
@@ -17,11 +18,15 @@ const MANUALS: [(&str, &str, &str, bool); 5] = [
 ];
 
 /// Prints manuals with WeasyPrint and reads the paper.
-pub(crate) fn print(runner: &mut Runner) -> Result<(), Failure> {
+pub(crate) fn print(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     const DOCS: &str = "target/print/docs";
     let templates = [docs::Templates::new(Some(docs::Format::Print), &[])?];
     let mut directories = Vec::new();
-    for (name, path, language, errata) in MANUALS {
+    let manuals = match amount {
+        Amount::Sample => &MANUALS[3..],
+        Amount::All => &MANUALS[..],
+    };
+    for &(name, path, language, errata) in manuals {
         let system = compile_clean(path)?;
         let options = docs::Options { errata, ..docs::options(&system, &[], Some(language)) };
         let mut set = docs::artifacts(&system, "", name, &options, &templates)?;

@@ -7,7 +7,7 @@ use std::process::Command;
 use od_tests::{Failure, root};
 use serde_json::Value;
 
-use crate::runner::Runner;
+use crate::runner::{self, Runner};
 
 /// What a user finds in each package beside the code.
 const FILES: [&str; 3] = ["README.md", "LICENSE-MIT", "LICENSE-APACHE"];
@@ -16,8 +16,8 @@ const FACTS: [&str; 4] = ["description", "license", "readme", "rust_version"];
 /// What people find it by.
 const LISTS: [&str; 2] = ["keywords", "categories"];
 
-/// Packages each crate and compiles it from its package, with no features but those that it asks for itself.
-pub(crate) fn package() -> Result<(), Failure> {
+/// Each crate that users depend on has what a registry shows, in its manifest and among its files.
+pub(crate) fn complete(runner: &mut Runner) -> Result<(), Failure> {
     let published = published(&cargo(&["metadata", "--format-version", "1", "--no-deps"])?)?;
     let mut lacks = Vec::new();
     for package in &published {
@@ -28,6 +28,15 @@ pub(crate) fn package() -> Result<(), Failure> {
     if !lacks.is_empty() {
         return Err(lacks.join("\n").into());
     }
+    let names: Vec<&str> = published.iter().map(name).collect::<Result<_, _>>()?;
+    runner.tell(&format!("{} packages are complete: {}", names.len(), names.join(", ")));
+    Ok(())
+}
+
+/// Packages each crate and compiles it from its package, with no features except those that it asks for itself. Installs the
+/// command as a user does.
+pub(crate) fn unpacked(runner: &mut Runner) -> Result<(), Failure> {
+    let published = published(&cargo(&["metadata", "--format-version", "1", "--no-deps"])?)?;
     let target = root().join("target/packaged");
     if target.exists() {
         std::fs::remove_dir_all(&target)?;
@@ -44,23 +53,39 @@ pub(crate) fn package() -> Result<(), Failure> {
     for package in &published {
         arguments.extend(["--package", name(package)?]);
     }
-    Runner::default().cargo(&arguments)?;
-    let unpacked = unpack(&target, &published)?;
+    runner.cargo(&arguments)?;
+    let unpacked = unpack(runner, &target, &published)?;
     let manifest = unpacked.join("Cargo.toml");
     for package in &published {
         // Each alone, as features of packages that are compiled together are the sum of all that are asked for.
         let package =
             ["check", "--quiet", "--target-dir", "target", "--package", name(package)?, "--manifest-path"];
-        Runner::default().run(cargo_command().args(package).arg(&manifest))?;
+        runner.run(runner::cargo().args(package).arg(&manifest))?;
     }
-    let names: Vec<&str> = published.iter().map(name).collect::<Result<_, _>>()?;
-    println!("{} packages are complete and compile: {}", names.len(), names.join(", "));
-    Ok(())
+    runner.tell(&format!("{} packages compile", published.len()));
+    install(runner, &published)
+}
+
+/// The package with the command, installed below `target`.
+fn install(runner: &mut Runner, published: &[Value]) -> Result<(), Failure> {
+    let has_command = |package: &&Value| {
+        let targets = package.get("targets").and_then(Value::as_array);
+        targets
+            .is_some_and(|targets| targets.iter().any(|target| target.get("name") == Some(&"odgen".into())))
+    };
+    let package = published.iter().find(has_command).ok_or("no package has the command odgen")?;
+    let manifest = package.get("manifest_path").and_then(Value::as_str).map(Path::new);
+    let directory = manifest.and_then(Path::parent).ok_or("cargo metadata names no manifest")?;
+    let installed = root().join("target/installed");
+    let mut command = runner::cargo();
+    command.args(["install", "--quiet", "--locked", "--debug", "--force", "--path"]).arg(directory);
+    runner.run(command.arg("--root").arg(&installed))?;
+    runner.run(Command::new(installed.join("bin/odgen")).arg("--version"))
 }
 
 /// Unpacks the packages into a workspace of their own, in which each takes the others in place of those of a registry. Cargo's own
 /// check of packages does the same through a registry, but compiles every dependency once more.
-fn unpack(target: &Path, published: &[Value]) -> Result<PathBuf, Failure> {
+fn unpack(runner: &mut Runner, target: &Path, published: &[Value]) -> Result<PathBuf, Failure> {
     let unpacked = target.join("unpacked");
     std::fs::create_dir_all(&unpacked)?;
     let mut directories = Vec::new();
@@ -69,7 +94,7 @@ fn unpack(target: &Path, published: &[Value]) -> Result<PathBuf, Failure> {
         let directory = format!("{}-{version}", name(package)?);
         // In a package every file is equally old; cargo tells by their age what to compile.
         let file = target.join("package").join(format!("{directory}.crate"));
-        Runner::default().run(Command::new("tar").arg("-xzmf").arg(file).arg("-C").arg(&unpacked))?;
+        runner.run(Command::new("tar").arg("-xzmf").arg(file).arg("-C").arg(&unpacked))?;
         directories.push((name(package)?, directory));
     }
     std::fs::write(unpacked.join("Cargo.toml"), workspace(&directories))?;
@@ -117,16 +142,12 @@ fn lacking<'a>(package: &Value, listed: &str) -> Vec<&'a str> {
 
 /// What a command of cargo prints.
 fn cargo(arguments: &[&str]) -> Result<String, Failure> {
-    let output = cargo_command().args(arguments).current_dir(root()).output()?;
+    let output = runner::cargo().args(arguments).current_dir(root()).output()?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         return Err(format!("`cargo {}` failed: {said}", arguments.join(" ")).into());
     }
     Ok(String::from_utf8(output.stdout)?)
-}
-
-fn cargo_command() -> Command {
-    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
 #[cfg(test)]

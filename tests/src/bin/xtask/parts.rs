@@ -1,55 +1,36 @@
-//! The parts of the tests, what each needs, and whether it can run on this machine.
+//! The parts of the tests as one table: what each needs, when it runs, and what it does.
 
 use std::collections::BTreeSet;
+use std::fmt;
 
 use od_tests::Failure;
 
 use crate::runner::Runner;
 use crate::tools::Tool;
-use crate::{browser, manuals, plain_c, readers};
+use crate::{browser, form, manuals, package, plain_c, readers, rust_tests};
 
-/// A part of the tests, in the order in which they run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Part {
-    Rust,
-    /// Mutants of EDS and DCF files, specifications, settings and templates, from the same seed in every run.
-    Mutants,
-    /// The foreign readers notice what is wrong.
-    ReadersSelfTest,
-    /// A device with every feature and data type, which the shipped devices do not have.
-    EveryFeature,
-    /// A DCF with settings in every data type.
-    Configured,
-    Shipped,
-    /// The README's drive, and what `odgen new` starts with.
-    Drives,
-    /// What is foretold of the foreign readers, compared with what they do.
-    Foretold,
-    /// What a tool of others makes of the shipped EDS for firmware in C.
-    FirmwareInC,
-    /// Concise DCF files beside those of a tool of others.
-    ConciseDcf,
-    /// XDD and XDC files, read by an XML parser of others and held to the structure of the format.
-    XddStructure,
-    /// Every DCF of a plant.
-    Plant,
-    /// DBC files, and frames of the generated Rust that are read by them.
-    Dbc,
-    /// Structured Text, parsed by a parser that others wrote, and evaluated.
-    StructuredText,
-    /// `odgen lsp`, asked by a client that others wrote.
-    LanguageServer,
-    /// A client that others wrote, against the generated Rust.
-    SdoClient,
-    Browser,
-    /// The manuals, printed by WeasyPrint.
-    Manuals,
-    FirmwareSizes,
-    FirmwareTests,
-    /// A client that others wrote, against the demo firmware in an emulator.
-    DemoFirmware,
-    /// Dictionaries in plain C: every compiler and platform, and an emulator.
-    PlainC,
+/// A part of the tests.
+pub(crate) struct Part {
+    /// The word of the command line.
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) area: Area,
+    pub(crate) tier: Tier,
+    pub(crate) turn: Turn,
+    /// Tools without which it cannot run.
+    needs: &'static [Tool],
+    /// Tools without which it leaves something out: node-canopen, of the five readers and of two masters.
+    uses: &'static [Tool],
+    /// The script that, with `--install`, fetches from registries what the part needs.
+    pub(crate) installer: Option<&'static str>,
+    /// Runs it. What it leaves out because a registry cannot be reached is in the runner.
+    pub(crate) run: fn(&mut Runner) -> Result<(), Failure>,
+}
+
+impl fmt::Debug for Part {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name)
+    }
 }
 
 /// What parts have in common; what a tool is needed for.
@@ -61,12 +42,31 @@ pub(crate) enum Area {
     Firmware,
 }
 
+/// How often a part runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Tier {
+    /// With `cargo xtask check` and in the gate: after every edit.
+    Check,
+    /// In the gate: before every change is sent.
+    Gate,
+    /// With `--long`, before a release, for this reason.
+    Long(&'static str),
+}
+
+/// How much of what there is a part looks at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Amount {
+    /// One of each kind.
+    Sample,
+    All,
+}
+
 /// What a part runs beside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Turn {
-    /// From the start.
+    /// From the start, one after the other: cargo, which works on all cores.
     First,
-    /// At the same time, one after the other, as these parts share what they install.
+    /// At the same time, one after the other, because these parts share what they install.
     Beside,
     /// When all others have ended, one after the other: a client, a browser or an emulator is given a time to answer.
     Alone,
@@ -77,172 +77,218 @@ pub(crate) enum Turn {
 pub(crate) enum Readiness {
     /// Everything is there.
     Whole,
-    /// It can run, but for what these tools would do.
+    /// It can run, except for what these tools would do.
     Partly(Vec<Tool>),
     /// It cannot run without these tools.
     Lacks(Vec<Tool>),
 }
 
+const PYTHON: &[Tool] = &[Tool::Python];
+const NODE: &[Tool] = &[Tool::Node];
+const BROWSER: &[Tool] = &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext];
+const PAPER: &[Tool] = &[Tool::Python, Tool::Pdftotext, Tool::Pango];
+const THUMB: &[Tool] = &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker];
+const EMULATOR: &[Tool] = &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu];
+
+/// A part of the Rust tests in this tier; other parts change what differs.
+const fn rust(
+    name: &'static str,
+    title: &'static str,
+    tier: Tier,
+    run: fn(&mut Runner) -> Result<(), Failure>,
+) -> Part {
+    Part {
+        name,
+        title,
+        area: Area::Rust,
+        tier,
+        turn: Turn::First,
+        needs: &[],
+        uses: &[],
+        installer: None,
+        run,
+    }
+}
+
+/// A part with tools that others wrote.
+const fn reader(
+    name: &'static str,
+    title: &'static str,
+    tier: Tier,
+    run: fn(&mut Runner) -> Result<(), Failure>,
+) -> Part {
+    let installer = Some("tests/readers/run.py");
+    Part { area: Area::Readers, turn: Turn::Beside, needs: PYTHON, installer, ..rust(name, title, tier, run) }
+}
+
+/// All parts, in the order in which they run.
+pub(crate) static PARTS: [Part; 34] = [
+    rust("form", "form", Tier::Check, form::check),
+    rust("unit", "unit tests", Tier::Check, rust_tests::unit),
+    rust("rust", "Rust tests", Tier::Gate, rust_tests::integration),
+    rust("examples", "examples in the documentation", Tier::Gate, rust_tests::examples),
+    rust("packages", "packages are complete", Tier::Gate, package::complete),
+    // The same mutants in every run, as the seed decides.
+    Part {
+        turn: Turn::Beside,
+        ..rust("mutants", "mutants of files", Tier::Gate, |runner| {
+            runner.fuzz(&["--seconds", "15", "--seed", "1"])
+        })
+    },
+    Part {
+        uses: NODE,
+        ..reader("selftest", "EDS readers notice mistakes", Tier::Gate, |runner| {
+            runner.python("tests/readers/selftest/selftest.py", &[])
+        })
+    },
+    Part {
+        uses: NODE,
+        ..reader("everything", "EDS readers: every feature", Tier::Gate, readers::every_feature)
+    },
+    Part {
+        uses: NODE,
+        ..reader("configured", "EDS readers: a DCF with settings", Tier::Gate, readers::configured)
+    },
+    Part {
+        uses: NODE,
+        ..reader("shipped", "EDS readers: shipped devices", Tier::Gate, |runner| {
+            runner.python("tests/readers/run.py", &[])
+        })
+    },
+    Part { uses: NODE, ..reader("drives", "EDS readers: drives of odgen new", Tier::Gate, readers::drives) },
+    Part { uses: NODE, ..reader("foretold", "EDS readers: what is foretold", Tier::Gate, readers::foretold) },
+    reader("eds2c", "EDS readers: firmware in C", Tier::Gate, readers::firmware_in_c),
+    reader("concise", "EDS readers: concise DCF", Tier::Gate, readers::concise_dcf),
+    reader("xdd", "EDS readers: XDD and XDC", Tier::Gate, readers::xdd_structure),
+    reader("plant", "EDS readers: a plant", Tier::Gate, readers::plant),
+    reader("dbc", "DBC readers", Tier::Gate, readers::dbc),
+    reader("st", "Structured Text", Tier::Gate, |runner| readers::structured_text(runner, Amount::Sample)),
+    reader("lsp", "language server", Tier::Gate, readers::language_server),
+    Part {
+        turn: Turn::Alone,
+        uses: NODE,
+        ..reader("sdo", "SDO client", Tier::Gate, |runner| readers::sdo_client(runner, Amount::Sample))
+    },
+    Part {
+        area: Area::Browser,
+        turn: Turn::Alone,
+        needs: BROWSER,
+        installer: Some("tests/browser/run.py"),
+        ..rust("browser", "documents in a browser", Tier::Gate, |runner| {
+            browser::read_documents(runner, Amount::Sample)
+        })
+    },
+    Part {
+        area: Area::Browser,
+        turn: Turn::Beside,
+        needs: PAPER,
+        installer: Some("tests/print/run.py"),
+        ..rust("paper", "manuals on paper", Tier::Gate, |runner| manuals::print(runner, Amount::Sample))
+    },
+    Part {
+        area: Area::Firmware,
+        turn: Turn::Beside,
+        needs: THUMB,
+        ..rust("sizes", "sizes of firmware", Tier::Gate, |runner| {
+            runner.python("tests/thumb/run.py", &["sizes"])
+        })
+    },
+    Part {
+        area: Area::Firmware,
+        turn: Turn::Alone,
+        needs: EMULATOR,
+        ..rust("emulator", "firmware in an emulator", Tier::Gate, |runner| {
+            runner.python("tests/thumb/run.py", &["test"])
+        })
+    },
+    Part {
+        area: Area::Firmware,
+        turn: Turn::Alone,
+        needs: EMULATOR,
+        ..rust("demo", "demo firmware in an emulator", Tier::Gate, readers::demo_firmware)
+    },
+    Part {
+        area: Area::Firmware,
+        turn: Turn::Beside,
+        needs: &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
+        ..rust("plain-c", "dictionaries in plain C", Tier::Gate, plain_c::try_all)
+    },
+    rust(
+        "long-rust",
+        "Rust tests with all random values",
+        Tier::Long("finds rare faults only; the gate tries the first quarter of the same values"),
+        rust_tests::long,
+    ),
+    rust(
+        "features",
+        "each feature alone",
+        Tier::Long(
+            "compiles libraries a dozen times; the gate compiles none of the features and all of them",
+        ),
+        form::features,
+    ),
+    rust(
+        "unpacked",
+        "crates from their packages, and the installed command",
+        Tier::Long("compiles everything once more; the gate looks at the lists of files and the manifests"),
+        package::unpacked,
+    ),
+    rust(
+        "long-mutants",
+        "mutants of files for ten minutes",
+        Tier::Long("finds rare faults only; the gate tries the first of the same mutants"),
+        |runner| runner.fuzz(&["--seconds", "600", "--seed", "1"]),
+    ),
+    reader(
+        "long-st",
+        "Structured Text of all devices",
+        Tier::Long(
+            "the parser that others wrote takes minutes for it; the gate takes one device of each kind",
+        ),
+        |runner| readers::structured_text(runner, Amount::All),
+    ),
+    Part {
+        turn: Turn::Alone,
+        uses: NODE,
+        ..reader(
+            "long-sdo",
+            "SDO client with all devices",
+            Tier::Long("asks three devices the same; the gate asks one"),
+            |runner| readers::sdo_client(runner, Amount::All),
+        )
+    },
+    Part {
+        area: Area::Browser,
+        turn: Turn::Alone,
+        needs: BROWSER,
+        installer: Some("tests/browser/run.py"),
+        ..rust(
+            "long-browser",
+            "all documents in a browser",
+            Tier::Long("looks at eight documents in the same way; the gate looks at two of them"),
+            |runner| browser::read_documents(runner, Amount::All),
+        )
+    },
+    Part {
+        area: Area::Browser,
+        turn: Turn::Beside,
+        needs: PAPER,
+        installer: Some("tests/print/run.py"),
+        ..rust(
+            "long-paper",
+            "all manuals on paper",
+            Tier::Long("prints five manuals in the same way; the gate prints two of them"),
+            |runner| manuals::print(runner, Amount::All),
+        )
+    },
+];
+
 impl Part {
-    pub(crate) const ALL: [Part; 22] = [
-        Part::Rust,
-        Part::Mutants,
-        Part::ReadersSelfTest,
-        Part::EveryFeature,
-        Part::Configured,
-        Part::Shipped,
-        Part::Drives,
-        Part::Foretold,
-        Part::FirmwareInC,
-        Part::ConciseDcf,
-        Part::XddStructure,
-        Part::Plant,
-        Part::Dbc,
-        Part::StructuredText,
-        Part::LanguageServer,
-        Part::SdoClient,
-        Part::Browser,
-        Part::Manuals,
-        Part::FirmwareSizes,
-        Part::FirmwareTests,
-        Part::DemoFirmware,
-        Part::PlainC,
-    ];
-
-    pub(crate) const fn title(self) -> &'static str {
-        match self {
-            Part::Rust => "Rust tests",
-            Part::Mutants => "mutants of files",
-            Part::ReadersSelfTest => "EDS readers notice mistakes",
-            Part::EveryFeature => "EDS readers: every feature",
-            Part::Configured => "EDS readers: a DCF with settings",
-            Part::Shipped => "EDS readers: shipped devices",
-            Part::Drives => "EDS readers: drives of odgen new",
-            Part::Foretold => "EDS readers: what is foretold",
-            Part::FirmwareInC => "EDS readers: firmware in C",
-            Part::ConciseDcf => "EDS readers: concise DCF",
-            Part::XddStructure => "EDS readers: XDD and XDC",
-            Part::Plant => "EDS readers: a plant",
-            Part::Dbc => "DBC readers",
-            Part::StructuredText => "Structured Text",
-            Part::LanguageServer => "language server",
-            Part::SdoClient => "SDO client",
-            Part::Browser => "documents in a browser",
-            Part::Manuals => "manuals on paper",
-            Part::FirmwareSizes => "sizes of firmware",
-            Part::FirmwareTests => "firmware in an emulator",
-            Part::DemoFirmware => "demo firmware in an emulator",
-            Part::PlainC => "dictionaries in plain C",
-        }
-    }
-
-    pub(crate) const fn area(self) -> Area {
-        match self {
-            Part::Rust | Part::Mutants => Area::Rust,
-            Part::ReadersSelfTest
-            | Part::EveryFeature
-            | Part::Configured
-            | Part::Shipped
-            | Part::Drives
-            | Part::Foretold
-            | Part::FirmwareInC
-            | Part::ConciseDcf
-            | Part::XddStructure
-            | Part::Plant
-            | Part::Dbc
-            | Part::StructuredText
-            | Part::LanguageServer
-            | Part::SdoClient => Area::Readers,
-            Part::Browser | Part::Manuals => Area::Browser,
-            Part::FirmwareSizes | Part::FirmwareTests | Part::DemoFirmware | Part::PlainC => Area::Firmware,
-        }
-    }
-
-    pub(crate) const fn turn(self) -> Turn {
-        match self {
-            Part::Rust => Turn::First,
-            Part::Mutants
-            | Part::ReadersSelfTest
-            | Part::EveryFeature
-            | Part::Configured
-            | Part::Shipped
-            | Part::Drives
-            | Part::Foretold
-            | Part::FirmwareInC
-            | Part::ConciseDcf
-            | Part::XddStructure
-            | Part::Plant
-            | Part::Dbc
-            | Part::StructuredText
-            | Part::LanguageServer
-            | Part::Manuals
-            | Part::FirmwareSizes
-            | Part::PlainC => Turn::Beside,
-            Part::SdoClient | Part::Browser | Part::FirmwareTests | Part::DemoFirmware => Turn::Alone,
-        }
-    }
-
-    /// Tools without which it cannot run.
-    const fn needs(self) -> &'static [Tool] {
-        match self {
-            Part::Rust | Part::Mutants => &[],
-            Part::ReadersSelfTest
-            | Part::EveryFeature
-            | Part::Configured
-            | Part::Shipped
-            | Part::Drives
-            | Part::Foretold
-            | Part::FirmwareInC
-            | Part::ConciseDcf
-            | Part::XddStructure
-            | Part::Plant
-            | Part::Dbc
-            | Part::StructuredText
-            | Part::LanguageServer
-            | Part::SdoClient => &[Tool::Python],
-            Part::Browser => &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext],
-            Part::Manuals => &[Tool::Python, Tool::Pdftotext, Tool::Pango],
-            Part::FirmwareSizes => &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker],
-            Part::FirmwareTests | Part::DemoFirmware => {
-                &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu]
-            }
-            Part::PlainC => &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
-        }
-    }
-
-    /// Tools without which it leaves something out: node-canopen, of the five readers and of two masters.
-    const fn uses(self) -> &'static [Tool] {
-        match self {
-            Part::ReadersSelfTest
-            | Part::EveryFeature
-            | Part::Configured
-            | Part::Shipped
-            | Part::Drives
-            | Part::Foretold
-            | Part::SdoClient => &[Tool::Node],
-            Part::Rust
-            | Part::Mutants
-            | Part::FirmwareInC
-            | Part::ConciseDcf
-            | Part::XddStructure
-            | Part::Plant
-            | Part::Dbc
-            | Part::StructuredText
-            | Part::LanguageServer
-            | Part::Browser
-            | Part::Manuals
-            | Part::FirmwareSizes
-            | Part::FirmwareTests
-            | Part::DemoFirmware
-            | Part::PlainC => &[],
-        }
-    }
-
     /// Whether it can run with these tools.
-    pub(crate) fn readiness(self, found: &BTreeSet<Tool>) -> Readiness {
+    pub(crate) fn readiness(&self, found: &BTreeSet<Tool>) -> Readiness {
         let missing =
             |tools: &[Tool]| tools.iter().copied().filter(|tool| !found.contains(tool)).collect::<Vec<_>>();
-        let (lacks, does_without) = (missing(self.needs()), missing(self.uses()));
+        let (lacks, does_without) = (missing(self.needs), missing(self.uses));
         if !lacks.is_empty() {
             Readiness::Lacks(lacks)
         } else if !does_without.is_empty() {
@@ -252,38 +298,27 @@ impl Part {
         }
     }
 
-    /// Runs it. What it leaves out, because a registry cannot be reached, stands in the runner.
-    pub(crate) fn run(self, runner: &mut Runner) -> Result<(), Failure> {
-        match self {
-            Part::Rust => {
-                runner.cargo(&["test", "--workspace", "--no-fail-fast"])?;
-                // What no other package asks for.
-                runner.cargo(&["test", "--package", "firmware-glue", "--all-features", "--no-fail-fast"])
-            }
-            // On a machine that is busy with other parts.
-            Part::Mutants => runner.fuzz(&["--seconds", "90", "--seed", "1"]),
-            Part::ReadersSelfTest => runner.python("tests/readers/selftest/selftest.py", &[]),
-            Part::EveryFeature => readers::every_feature(runner),
-            Part::Configured => readers::configured(runner),
-            Part::Shipped => runner.python("tests/readers/run.py", &[]),
-            Part::Drives => readers::drives(runner),
-            Part::Foretold => readers::foretold(runner),
-            Part::FirmwareInC => readers::firmware_in_c(runner),
-            Part::ConciseDcf => readers::concise_dcf(runner),
-            Part::XddStructure => readers::xdd_structure(runner),
-            Part::Plant => readers::plant(runner),
-            Part::Dbc => readers::dbc(runner),
-            Part::StructuredText => readers::structured_text(runner),
-            Part::LanguageServer => readers::language_server(runner),
-            Part::SdoClient => readers::sdo_client(runner),
-            Part::Browser => browser::read_documents(runner),
-            Part::Manuals => manuals::print(runner),
-            Part::FirmwareSizes => runner.python("tests/thumb/run.py", &["sizes"]),
-            Part::FirmwareTests => runner.python("tests/thumb/run.py", &["test"]),
-            Part::DemoFirmware => readers::demo_firmware(runner),
-            Part::PlainC => plain_c::try_all(runner),
-        }
+    /// Its position in the table.
+    pub(crate) fn position(&self) -> usize {
+        PARTS.iter().position(|part| part.name == self.name).unwrap_or(PARTS.len())
     }
+}
+
+/// The parts by name, for the help; those outside the gate with the reason.
+pub(crate) fn listed() -> String {
+    let row = |part: &Part| match part.tier {
+        Tier::Check | Tier::Gate => format!("  {:<14}{}\n", part.name, part.title),
+        Tier::Long(why) => format!("  {:<14}{}; {why}\n", part.name, part.title),
+    };
+    let (long, gate): (Vec<&Part>, Vec<&Part>) =
+        PARTS.iter().partition(|part| matches!(part.tier, Tier::Long(_)));
+    let rows = |parts: Vec<&Part>| parts.into_iter().map(row).collect::<String>();
+    format!("Parts of the gate:\n{}\nParts outside it, and why:\n{}", rows(gate), rows(long))
+}
+
+/// The part with this name.
+pub(crate) fn named(name: &str) -> Option<&'static Part> {
+    PARTS.iter().find(|part| part.name == name)
 }
 
 impl Area {
@@ -298,47 +333,64 @@ impl Area {
 }
 
 /// What a tool is needed for.
-pub(crate) fn needed_for(tool: Tool, parts: &[Part]) -> BTreeSet<Area> {
-    let needing = parts.iter().filter(|part| part.needs().contains(&tool) || part.uses().contains(&tool));
-    needing.map(|part| part.area()).collect()
+pub(crate) fn needed_for(tool: Tool, parts: &[&Part]) -> BTreeSet<Area> {
+    let needing = parts.iter().filter(|part| part.needs.contains(&tool) || part.uses.contains(&tool));
+    needing.map(|part| part.area).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn readiness(part: Part, missing: &[Tool]) -> Readiness {
+    fn readiness(name: &str, missing: &[Tool]) -> Readiness {
         let found = Tool::ALL.into_iter().filter(|tool| !missing.contains(tool)).collect();
-        part.readiness(&found)
+        named(name).unwrap().readiness(&found)
     }
 
     #[test]
-    fn all_parts_are_listed_in_the_order_in_which_they_are_declared() {
-        assert!(Part::ALL.is_sorted() && Part::ALL.last() == Some(&Part::PlainC));
+    fn names_and_titles_are_different_and_short() {
+        let names: BTreeSet<&str> = PARTS.iter().map(|part| part.name).collect();
+        let titles: BTreeSet<&str> = PARTS.iter().map(|part| part.title).collect();
+        assert_eq!((names.len(), titles.len()), (PARTS.len(), PARTS.len()));
+        assert!(
+            names
+                .iter()
+                .all(|name| name.bytes().all(|byte| byte.is_ascii_lowercase() || b"-2".contains(&byte)))
+        );
         assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Clang));
     }
 
     #[test]
     fn with_everything_every_part_runs_and_with_nothing_the_rust_tests() {
-        for part in Part::ALL {
-            assert_eq!(readiness(part, &[]), Readiness::Whole);
-            let alone = readiness(part, &Tool::ALL);
-            assert_eq!(alone == Readiness::Whole, part.area() == Area::Rust, "{part:?}: {alone:?}");
+        for part in &PARTS {
+            assert_eq!(readiness(part.name, &[]), Readiness::Whole);
+            let alone = readiness(part.name, &Tool::ALL);
+            assert_eq!(alone == Readiness::Whole, part.area == Area::Rust, "{part:?}: {alone:?}");
             assert!(!matches!(alone, Readiness::Partly(_)), "{part:?}");
         }
     }
 
     #[test]
     fn each_tool_is_missed_by_what_needs_it() {
-        assert_eq!(readiness(Part::Shipped, &[Tool::Node]), Readiness::Partly(vec![Tool::Node]));
-        assert_eq!(readiness(Part::SdoClient, &[Tool::Node]), Readiness::Partly(vec![Tool::Node]));
-        assert_eq!(readiness(Part::Plant, &[Tool::Node]), Readiness::Whole);
-        assert_eq!(readiness(Part::Browser, &[Tool::Node]), Readiness::Lacks(vec![Tool::Node]));
-        assert_eq!(readiness(Part::FirmwareSizes, &[Tool::Qemu]), Readiness::Whole);
-        assert_eq!(readiness(Part::FirmwareTests, &[Tool::Qemu]), Readiness::Lacks(vec![Tool::Qemu]));
+        assert_eq!(readiness("shipped", &[Tool::Node]), Readiness::Partly(vec![Tool::Node]));
+        assert_eq!(readiness("sdo", &[Tool::Node]), Readiness::Partly(vec![Tool::Node]));
+        assert_eq!(readiness("plant", &[Tool::Node]), Readiness::Whole);
+        assert_eq!(readiness("browser", &[Tool::Node]), Readiness::Lacks(vec![Tool::Node]));
+        assert_eq!(readiness("sizes", &[Tool::Qemu]), Readiness::Whole);
+        assert_eq!(readiness("emulator", &[Tool::Qemu]), Readiness::Lacks(vec![Tool::Qemu]));
+        let all: Vec<&Part> = PARTS.iter().collect();
         for tool in Tool::ALL {
-            assert!(Part::ALL.iter().any(|&part| readiness(part, &[tool]) != Readiness::Whole), "{tool:?}");
-            assert!(!needed_for(tool, &Part::ALL).is_empty(), "{tool:?}");
+            assert!(PARTS.iter().any(|part| readiness(part.name, &[tool]) != Readiness::Whole), "{tool:?}");
+            assert!(!needed_for(tool, &all).is_empty(), "{tool:?}");
+        }
+    }
+
+    /// What moves out of the gate leaves a cheap one of its kind there.
+    #[test]
+    fn a_long_part_that_does_more_of_a_part_has_this_part_in_the_gate() {
+        for name in PARTS.iter().filter_map(|part| part.name.strip_prefix("long-")) {
+            let short = named(name).unwrap_or_else(|| panic!("{name}"));
+            assert_eq!(short.tier, Tier::Gate, "{name}");
         }
     }
 }

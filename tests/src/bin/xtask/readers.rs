@@ -11,8 +11,17 @@ use od_tests::generate::SPECS;
 use od_tests::{Failure, compile_clean, compile_with_sources, root};
 
 use crate::configured::{CONFIGURED, write_configured};
-use crate::runner::Runner;
+use crate::parts::Amount;
+use crate::runner::{Runner, beside};
 use crate::virtual_nodes;
+
+/// The shipped specifications that so much is.
+const fn specs(amount: Amount) -> &'static [&'static str] {
+    match amount {
+        Amount::Sample => &["fullmo-drive"],
+        Amount::All => &SPECS,
+    }
+}
 
 /// Where the readers are installed.
 const VENV: &str = "target/readers/venv";
@@ -42,7 +51,7 @@ fn write_everything() -> Result<(System, SourceMap), Failure> {
 
 /// The drive of the README, and what `odgen new` starts with, read by every foreign reader.
 pub(crate) fn drives(runner: &mut Runner) -> Result<(), Failure> {
-    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let odgen = beside("odgen")?;
     let folder = root().join("target/drives");
     if folder.exists() {
         std::fs::remove_dir_all(&folder)?;
@@ -75,7 +84,7 @@ pub(crate) fn drives(runner: &mut Runner) -> Result<(), Failure> {
 
 /// Files with planted faults: who refuses them, as `odgen check` foretells it.
 pub(crate) fn foretold(runner: &mut Runner) -> Result<(), Failure> {
-    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let odgen = beside("odgen")?;
     let script = Path::new("tests/readers/predictions.py");
     runner.run(Command::new("python3").arg(script).arg("--odgen").arg(odgen))
 }
@@ -84,7 +93,7 @@ pub(crate) fn foretold(runner: &mut Runner) -> Result<(), Failure> {
 pub(crate) fn firmware_in_c(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let dumps = SPECS.map(|stem| format!("generated/{stem}.json"));
-    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let odgen = beside("odgen")?;
     let arguments = ["tests/readers/eds2c.py", "--eds-dir", "generated/eds", "--odgen"];
     runner.run(Command::new(&python).args(arguments).arg(odgen).arg("--dump").args(dumps))
 }
@@ -92,7 +101,7 @@ pub(crate) fn firmware_in_c(runner: &mut Runner) -> Result<(), Failure> {
 /// What dcfgen makes of the same values, beside the concise DCF files of odgen.
 pub(crate) fn concise_dcf(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
-    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let odgen = beside("odgen")?;
     runner.run(Command::new(&python).args(["tests/readers/lely_dcfgen.py", "--odgen"]).arg(odgen))
 }
 
@@ -111,7 +120,7 @@ pub(crate) fn xdd_structure(runner: &mut Runner) -> Result<(), Failure> {
     let mut arguments = vec!["--xdd-dir", "target/xdd/xdd", "--node", "5", "--dump"];
     arguments.extend(dumps.iter().map(String::as_str));
     runner.python("tests/readers/xdd_structure.py", &arguments)?;
-    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let odgen = beside("odgen")?;
     let odgen = odgen.to_string_lossy();
     let mut files =
         vec!["--odgen".to_owned(), odgen.into_owned(), "od-gen/cli/tests/cli/eds/tank.xdd".to_owned()];
@@ -125,7 +134,7 @@ pub(crate) fn xdd_structure(runner: &mut Runner) -> Result<(), Failure> {
 /// Every DCF of a plant, read by dcfchk and python-canopen.
 pub(crate) fn plant(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
-    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let odgen = beside("odgen")?;
     // Of the shipped devices, and what the README says step by step.
     ["tests/readers/plant.py", "tests/readers/readme_plant.py"]
         .into_iter()
@@ -146,7 +155,6 @@ fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
 /// every scale and type. canmatrix finds the same.
 pub(crate) fn dbc(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
-    let beside = |name: &str| std::env::current_exe().map(|path| path.with_file_name(name));
     let mut command = Command::new(&python);
     command.arg("tests/readers/dbc.py").arg("--odgen").arg(beside("odgen")?);
     command.arg("--frames").arg(beside("pdo-frames")?);
@@ -157,19 +165,24 @@ pub(crate) fn dbc(runner: &mut Runner) -> Result<(), Failure> {
 }
 
 /// Structured Text, parsed by blark and compared with the dump; what its functions do is evaluated, on frames of the generated Rust, too.
-pub(crate) fn structured_text(runner: &mut Runner) -> Result<(), Failure> {
+pub(crate) fn structured_text(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
-    let beside = |name: &str| std::env::current_exe().map(|path| path.with_file_name(name));
     let mut command = Command::new(&python);
     command.arg("tests/readers/st.py").arg("--odgen").arg(beside("odgen")?);
     command.arg("--frames").arg(beside("pdo-frames")?);
-    for file in ["limits", "everything"] {
+    let (as_it_is, faulty, specs): (&[&str], &[&str], &[&str]) = match amount {
+        Amount::Sample => (&["limits"], &["readme/valve"], specs(amount)),
+        Amount::All => {
+            (&["limits", "everything"], &["readme/valve", "readme/lift", "readers/scales"], specs(amount))
+        }
+    };
+    for file in as_it_is {
         command.arg("--as-it-is").arg(format!("tests/readers/{file}.od.yaml"));
     }
-    for file in ["readme/valve", "readme/lift", "readers/scales"] {
+    for file in faulty {
         command.arg("--faults").arg(format!("tests/{file}.od.yaml"));
     }
-    runner.run(command.args(SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
+    runner.run(command.args(specs.iter().map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
 }
 
 /// Sessions of a client that others wrote with `odgen lsp`.
@@ -177,17 +190,18 @@ pub(crate) fn language_server(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let mut command = Command::new(&python);
     command.arg("tests/readers/lsp_client.py").arg("--odgen");
-    command.arg(std::env::current_exe()?.with_file_name("odgen"));
+    command.arg(beside("odgen")?);
     runner.run(command.args(SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
 }
 
 /// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue
 /// and `odgen node` against a server that others wrote.
-pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
+pub(crate) fn sdo_client(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
-    let server = std::env::current_exe()?.with_file_name("sdo-server");
-    let odgen = std::env::current_exe()?.with_file_name("odgen");
-    for stem in SPECS {
+    let server = beside("sdo-server")?;
+    let odgen = beside("odgen")?;
+    let specs = specs(amount);
+    for stem in specs {
         let dump = format!("generated/{stem}.json");
         let arguments = ["--eds-dir", "generated/eds", "--dump", &dump, "--server"];
         runner.run(Command::new(&python).arg("tests/readers/sdo_client.py").args(arguments).arg(&server))?;
@@ -195,11 +209,11 @@ pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
         let arguments = ["--eds-dir", "generated/eds", "--dump", &dump, "--spec", &spec, "--odgen"];
         runner.run(Command::new(&python).arg("tests/readers/virtual_node.py").args(arguments).arg(&odgen))?;
     }
-    let specs = SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"));
+    let paths = specs.iter().map(|stem| format!("od-spec/devices/{stem}.od.yaml"));
     let virtual_pdo = ["tests/readers/virtual_pdo.py", "tests/readers/everything.od.yaml"];
-    runner.run(Command::new(&python).args(virtual_pdo).args(specs).arg("--odgen").arg(&odgen))?;
-    virtual_nodes::prove(runner, &python, &odgen)?;
-    let client = std::env::current_exe()?.with_file_name("sdo-client");
+    runner.run(Command::new(&python).args(virtual_pdo).args(paths).arg("--odgen").arg(&odgen))?;
+    virtual_nodes::prove(runner, specs, &python, &odgen)?;
+    let client = beside("sdo-client")?;
     let arguments = ["tests/readers/sdo_local_node.py", "generated/eds/fullmo.eds", "--client"];
     runner.run(Command::new(&python).args(arguments).arg(&client))?;
     // A drive without defaults would be a node without values.
@@ -223,6 +237,6 @@ pub(crate) fn sdo_client(runner: &mut Runner) -> Result<(), Failure> {
 /// The same client and `odgen node`, against the demo firmware on an emulated Cortex-M.
 pub(crate) fn demo_firmware(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
-    let odgen = std::env::current_exe()?.with_file_name("odgen");
+    let odgen = beside("odgen")?;
     runner.run(Command::new(&python).args(["tests/thumb/demo.py", "--odgen"]).arg(&odgen))
 }

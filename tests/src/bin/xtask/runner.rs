@@ -1,6 +1,7 @@
 //! Running programs: their output goes on to the user, at once or later, and what they count is kept for the summary.
 
 use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use od_tests::{Failure, root};
@@ -53,16 +54,30 @@ impl Counts {
     }
 }
 
+/// The cargo that runs this program.
+pub(crate) fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+/// Another program of the workspace, which lies beside this one.
+pub(crate) fn beside(name: &str) -> Result<PathBuf, Failure> {
+    let program =
+        std::env::current_exe()?.with_file_name(name).with_extension(std::env::consts::EXE_EXTENSION);
+    if program.is_file() {
+        Ok(program)
+    } else {
+        Err(format!("{} is missing: `cargo build --workspace` makes it", program.display()).into())
+    }
+}
+
 impl Runner {
     pub(crate) fn cargo(&mut self, arguments: &[&str]) -> Result<(), Failure> {
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        self.run(Command::new(cargo).args(arguments))
+        self.run(cargo().args(arguments))
     }
 
-    /// The fuzzer is a program of its own: its allocator counts, and its profile is quicker than that of the tests.
+    /// The fuzzer is a program of its own because its allocator counts.
     pub(crate) fn fuzz(&mut self, arguments: &[&str]) -> Result<(), Failure> {
-        let program = ["run", "--quiet", "--profile", "fuzz", "--package", "od-tests", "--bin", "fuzz", "--"];
-        self.cargo(&[&program, arguments].concat())
+        self.run(Command::new(beside("fuzz")?).args(arguments))
     }
 
     pub(crate) fn python(&mut self, script: &str, arguments: &[&str]) -> Result<(), Failure> {
@@ -71,9 +86,14 @@ impl Runner {
 
     /// Runs a program at the root of the workspace, without any input.
     pub(crate) fn run(&mut self, command: &mut Command) -> Result<(), Failure> {
+        self.run_in(&root(), command)
+    }
+
+    /// Runs a program in a directory, without any input.
+    pub(crate) fn run_in(&mut self, directory: &Path, command: &mut Command) -> Result<(), Failure> {
         let name = command.get_program().to_string_lossy().into_owned();
         let (reader, writer) = std::io::pipe()?;
-        command.current_dir(root()).stdin(Stdio::null()).env("PYTHONUNBUFFERED", "1");
+        command.current_dir(directory).stdin(Stdio::null()).env("PYTHONUNBUFFERED", "1");
         if matches!(self.output, Output::Kept(_)) {
             command.stderr(writer.try_clone()?);
         }

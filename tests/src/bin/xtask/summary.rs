@@ -24,7 +24,7 @@ pub(crate) enum Outcome {
 /// A part, and what became of it.
 #[derive(Debug)]
 pub(crate) struct Row {
-    pub(crate) part: Part,
+    pub(crate) part: &'static Part,
     pub(crate) outcome: Outcome,
     /// What its programs counted.
     pub(crate) counts: Option<Counts>,
@@ -46,7 +46,7 @@ pub(crate) enum Verdict {
 }
 
 /// The tools that wanted parts lack, each with what needs it and what installs it; empty when nothing is missing.
-pub(crate) fn missing(parts: &[Part], found: &BTreeSet<Tool>) -> String {
+pub(crate) fn missing(parts: &[&Part], found: &BTreeSet<Tool>) -> String {
     let mut text = String::new();
     for tool in Tool::ALL.into_iter().filter(|tool| !found.contains(tool)) {
         let areas = needed_for(tool, parts);
@@ -70,6 +70,15 @@ pub(crate) fn reason(readiness: &Readiness) -> Option<String> {
     }
 }
 
+/// How long something took: minutes, or seconds where it is less than one.
+pub(crate) fn time(time: Duration) -> String {
+    if time.as_secs() < 60 {
+        format!("{} s", time.as_secs())
+    } else {
+        format!("{:.1} min", time.as_secs_f64() / 60.0)
+    }
+}
+
 /// A line for each part, what to install for the rest, and the numbers.
 pub(crate) fn summarize(rows: &[Row], missing: &str, gaps: Gaps) -> Summary {
     let mut text = String::from("\n== summary\n");
@@ -88,10 +97,9 @@ pub(crate) fn summarize(rows: &[Row], missing: &str, gaps: Gaps) -> Summary {
             Outcome::Partly(_) | Outcome::LeftOut(_) | Outcome::Unwanted => left_out += 1,
         }
         let counts = row.counts.map(|counts| format!("{} passed, {} failed", counts.passed, counts.failed));
-        let seconds = row.time.as_secs();
-        let time = (seconds > 0).then(|| format!("{seconds} s"));
+        let time = (row.time.as_secs() > 0).then(|| time(row.time));
         let facts: Vec<&str> = counts.as_deref().into_iter().chain(time.as_deref()).chain(why).collect();
-        let line = format!("{word:<8}  {:<32}  {}", row.part.title(), facts.join("; "));
+        let line = format!("{word:<8}  {:<40}  {}", row.part.title, facts.join("; "));
         let _ = writeln!(text, "{}", line.trim_end());
     }
     if !missing.is_empty() {
@@ -99,7 +107,7 @@ pub(crate) fn summarize(rows: &[Row], missing: &str, gaps: Gaps) -> Summary {
     }
     let refused = gaps == Gaps::Refused && left_out > 0;
     if refused {
-        text.push_str("\nerror: with `--all` nothing may be left out\n");
+        text.push_str("\nerror: nothing may be left out\n");
     }
     let _ = write!(
         text,
@@ -111,10 +119,15 @@ pub(crate) fn summarize(rows: &[Row], missing: &str, gaps: Gaps) -> Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parts::{PARTS, named};
+
+    fn all() -> Vec<&'static Part> {
+        PARTS.iter().collect()
+    }
 
     /// As the tests would go on a machine that has these tools, when all that runs passes.
     fn rows(found: &BTreeSet<Tool>) -> Vec<Row> {
-        let row = |part: Part| {
+        let row = |part: &'static Part| {
             let readiness = part.readiness(found);
             let why = reason(&readiness).unwrap_or_default();
             let outcome = match readiness {
@@ -124,76 +137,77 @@ mod tests {
             };
             Row { part, outcome, counts: None, time: Duration::ZERO }
         };
-        Part::ALL.into_iter().map(row).collect()
+        all().into_iter().map(row).collect()
     }
 
     fn summary(found: &[Tool], gaps: Gaps) -> Summary {
         let found = found.iter().copied().collect();
-        summarize(&rows(&found), &missing(&Part::ALL, &found), gaps)
+        summarize(&rows(&found), &missing(&all(), &found), gaps)
     }
 
     #[test]
     fn a_machine_with_rust_alone_passes_and_says_what_was_left_out() {
-        let Summary { text, verdict } = summary(&[], Gaps::Told);
+        let Summary { text, verdict } = summary(&[], Gaps::Reported);
         assert_eq!(verdict, Verdict::Passed, "{text}");
         assert!(text.contains("passed    Rust tests\n"), "{text}");
-        assert!(text.contains("left out  SDO client                        missing: Python"), "{text}");
+        assert!(
+            text.contains("left out  SDO client                                missing: Python"),
+            "{text}"
+        );
         for tool in Tool::ALL {
             assert!(text.contains(&format!("  {}, for the ", tool.name())), "{tool:?}: {text}");
             assert!(tool.install().iter().all(|line| text.contains(&format!("      {line}\n"))), "{text}");
         }
-        let left_out = Part::ALL.len() - 2;
-        let end = format!("parts of the tests: {left_out} left out or run in part\n2 passed, 0 failed\n");
+        let passed = PARTS.iter().filter(|part| part.area == Area::Rust).count();
+        let left_out = PARTS.len() - passed;
+        let end =
+            format!("parts of the tests: {left_out} left out or run in part\n{passed} passed, 0 failed\n");
         assert!(text.ends_with(&end), "{text}");
     }
 
     #[test]
     fn a_machine_without_node_reads_with_the_other_readers() {
         let found: Vec<Tool> = Tool::ALL.into_iter().filter(|&tool| tool != Tool::Node).collect();
-        let Summary { text, verdict } = summary(&found, Gaps::Told);
+        let Summary { text, verdict } = summary(&found, Gaps::Reported);
         assert_eq!(verdict, Verdict::Passed);
-        assert!(text.contains("in part   EDS readers: shipped devices      missing: Node.js"), "{text}");
+        let line = "in part   EDS readers: shipped devices              missing: Node.js";
+        assert!(text.contains(line), "{text}");
         assert!(
             text.contains("with npm, for the foreign readers of EDS files, the documents in a browser:\n")
-        );
-        let passed = Part::ALL.len() - 8;
-        assert!(
-            text.ends_with(&format!(": 8 left out or run in part\n{passed} passed, 0 failed\n")),
-            "{text}"
         );
     }
 
     #[test]
-    fn with_all_nothing_may_be_left_out() {
+    fn where_gaps_are_refused_nothing_may_be_left_out() {
         assert_eq!(summary(&Tool::ALL, Gaps::Refused).verdict, Verdict::Passed);
         let Summary { text, verdict } = summary(&Tool::ALL[..7], Gaps::Refused);
         assert_eq!(verdict, Verdict::Failed);
-        assert!(text.contains("error: with `--all` nothing may be left out"), "{text}");
-        assert!(
-            text.contains("left out  firmware in an emulator           missing: qemu-system-arm"),
-            "{text}"
-        );
+        assert!(text.contains("error: nothing may be left out"), "{text}");
+        let line = "left out  firmware in an emulator                   missing: qemu-system-arm";
+        assert!(text.contains(line), "{text}");
         assert!(!text.contains("Chromium"), "{text}");
     }
 
     #[test]
-    fn a_failure_fails_and_the_counts_stand_beside_it() {
+    fn a_failure_fails_and_counts_and_time_are_in_its_line() {
         let found = Tool::ALL.into_iter().collect();
-        let mut all = rows(&found);
-        all[0].outcome = Outcome::Failed("`cargo test` failed (exit status: 101)".to_owned());
-        all[0].counts = Some(Counts { passed: 600, failed: 2 });
-        let Summary { text, verdict } = summarize(&all, "", Gaps::Told);
+        let mut rows = rows(&found);
+        let row = rows.iter_mut().find(|row| row.part.name == "rust").unwrap();
+        row.outcome = Outcome::Failed("`cargo test` failed (exit status: 101)".to_owned());
+        row.counts = Some(Counts { passed: 600, failed: 2 });
+        row.time = Duration::from_secs(150);
+        let Summary { text, verdict } = summarize(&rows, "", Gaps::Reported);
         assert_eq!(verdict, Verdict::Failed);
-        let line =
-            "FAILED    Rust tests                        600 passed, 2 failed; `cargo test` failed (exit";
+        let line = "FAILED    Rust tests                                600 passed, 2 failed; 2.5 min; `cargo test` failed (exit";
         assert!(text.contains(line), "{text}");
-        assert!(text.ends_with(&format!("\n{} passed, 1 failed\n", Part::ALL.len() - 1)), "{text}");
+        assert!(text.ends_with(&format!("\n{} passed, 1 failed\n", PARTS.len() - 1)), "{text}");
     }
 
     #[test]
     fn tools_that_no_wanted_part_needs_are_not_asked_for() {
-        let text = missing(&[Part::Browser], &BTreeSet::new());
+        let missing = |name| missing(&[named(name).unwrap()], &BTreeSet::new());
+        let text = missing("browser");
         assert!(text.contains("Chromium") && !text.contains("qemu"), "{text}");
-        assert_eq!(missing(&[Part::Rust], &BTreeSet::new()), "");
+        assert_eq!(missing("rust"), "");
     }
 }

@@ -140,8 +140,12 @@ fn ends_well(mut child: Child, limit: Duration) -> bool {
 
 /// The same two ways as in tests/thumb/run.py.
 fn has_target() -> bool {
-    let shipped = sysroot("rustc").is_some_and(|root| root.join("lib/rustlib").join(TARGET).is_dir());
-    shipped || debian_sysroot().is_some()
+    has_shipped_target() || debian_sysroot().is_some()
+}
+
+/// Whether the toolchain that compiles this workspace has the target's core library.
+pub(crate) fn has_shipped_target() -> bool {
+    sysroot("rustc").is_some_and(|root| root.join("lib/rustlib").join(TARGET).is_dir())
 }
 
 /// Debian's Rust, if it can build the core library: it has its own cargo and the sources.

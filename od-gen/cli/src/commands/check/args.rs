@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use od_spec::eds::readers::Reader;
+use od_spec::diag::readers::Reader;
 
 use crate::messages::Format;
 use crate::progress::Audience;

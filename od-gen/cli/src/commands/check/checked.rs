@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use od_formats::findings::Findings;
 use od_gen::rust;
-use od_gen::source::{FileLoader, compile_bytes_as, compile_file_as, read_input, remark};
-use od_spec::diag::render::Findings;
+use od_gen::source::{FileLoader, compile_bytes_as, compile_file_as, read_input};
+use od_readers::remark;
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
 use od_spec::eds::is_eds;
 use od_spec::source::SourceMap;

@@ -1,5 +1,6 @@
 //! The findings of one file in a format.
 
+use od_formats::findings::{github, json};
 use od_spec::diag::render::{Format, render};
 
 use super::args::{CheckArgs, CheckFormat};
@@ -8,7 +9,7 @@ use crate::listing::{Most, for_people};
 
 /// The findings in a format; nothing in one that is about the whole run.
 pub(super) fn of_file(checked: &Checked, format: CheckFormat, args: &CheckArgs, colour: bool) -> String {
-    let all = |format| render(&checked.shown, &checked.sources, format, colour);
+    let (shown, sources) = (&checked.shown, &checked.sources);
     match format {
         CheckFormat::Human => {
             let most = match checked.kind {
@@ -16,11 +17,11 @@ pub(super) fn of_file(checked: &Checked, format: CheckFormat, args: &CheckArgs, 
                 Kind::Eds => Most::OfEds,
                 Kind::Specification | Kind::Unknown => Most::OfSpecification,
             };
-            for_people(&checked.shown, &checked.sources, most, "`--all`", colour)
+            for_people(shown, sources, most, "`--all`", colour)
         }
-        CheckFormat::Short => all(Format::Short),
-        CheckFormat::Json => all(Format::Json),
-        CheckFormat::Github => all(Format::Github),
+        CheckFormat::Short => render(shown, sources, Format::Short, colour),
+        CheckFormat::Json => json(shown, sources),
+        CheckFormat::Github => github(shown, sources),
         CheckFormat::Sarif => String::new(),
     }
 }

@@ -9,7 +9,8 @@ mod summary;
 
 use std::path::Path;
 
-use od_spec::diag::render::{Findings, sarif};
+use od_formats::findings::{Findings, sarif};
+use od_reference::explanation;
 
 use self::checked::{Checked, check};
 use self::inputs::Input;
@@ -65,7 +66,8 @@ pub(crate) fn run(args: &CheckArgs, format: Option<Format>, directory: &Path, re
         CheckFormat::Human => report.write(&total.text()),
         CheckFormat::Sarif => {
             let findings: Vec<Findings<'_>> = document.iter().map(Checked::findings).collect();
-            written = written.max(print_json(sarif(env!("CARGO_PKG_VERSION"), &findings).as_bytes()));
+            written =
+                written.max(print_json(sarif(env!("CARGO_PKG_VERSION"), explanation, &findings).as_bytes()));
         }
         CheckFormat::Short | CheckFormat::Json | CheckFormat::Github => {}
     }

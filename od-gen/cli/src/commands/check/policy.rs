@@ -1,7 +1,7 @@
 //! What counts as an error and what is left out, as the command line wants it.
 
+use od_spec::diag::readers::Readers;
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity, codes};
-use od_spec::eds::readers::Readers;
 use od_spec::{all_codes, nearest};
 
 use super::args::CheckArgs;

@@ -6,20 +6,18 @@ mod event;
 mod hosts;
 #[cfg(target_os = "linux")]
 mod interface;
+mod play;
 mod script;
 #[cfg(target_os = "linux")]
 mod terminal;
 mod watch;
 
-use std::collections::BTreeMap;
 use std::io::BufRead as _;
 use std::net::TcpListener;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::{Duration, Instant};
 
-use firmware_glue::EntryId;
-use firmware_glue::emcy::Raised;
 use firmware_glue::frame::Frame;
 use od_bus::runtime::{self, Bus, Checks, LiveDictionary, VirtualNode};
 use od_bus::slcan::CanFrame;
@@ -33,18 +31,16 @@ use crate::interrupt::Interrupt;
 use crate::link::{Link, Side};
 use crate::report::{Report, print};
 pub(crate) use args::ServeArgs;
-use course::{Course, Now};
 use event::{Event, Sender};
 use hosts::Hosts;
-use script::{Act, Script, Step};
+use play::Play;
+use script::Script;
 use watch::Watch;
 
 /// Longer than this the loop does not sleep: what a client has written to 1017h begins no later.
 const NAP: Duration = Duration::from_millis(20);
 /// Shorter than this it does not sleep either: a transfer of which the client's part is awaited has no time of its own.
 const SHORTEST: Duration = Duration::from_millis(1);
-/// So often a value that changes with time gets another one.
-const TICK: Duration = Duration::from_millis(10);
 /// So many events wait at most; who sends faster has to wait.
 const WAITING: usize = 1024;
 /// So often the nodes are asked what they have to say before somebody else is heard: nodes that answer each other never come to an end.
@@ -115,8 +111,7 @@ fn serve(args: &ServeArgs, directory: &Path, report: &Report) -> Result<u8, u8> 
         report,
         start: Instant::now(),
         script,
-        pause: None,
-        courses: BTreeMap::new(),
+        play: Play::default(),
         is_sending: true,
         interrupt,
         watch,
@@ -274,13 +269,6 @@ fn listen(events: SyncSender<Event>) {
     });
 }
 
-/// A value on its way, since when, and what it is by now.
-struct Going {
-    course: Course,
-    since: u64,
-    last: Vec<u8>,
-}
-
 /// The bus and who is on it.
 struct Loop<'a, 't> {
     bus: Bus<'t>,
@@ -290,10 +278,7 @@ struct Loop<'a, 't> {
     report: &'a Report,
     start: Instant,
     script: Script<'a>,
-    /// Until when the script waits.
-    pause: Option<u64>,
-    /// What changes with time, by the position of its node.
-    courses: BTreeMap<(usize, EntryId), Going>,
+    play: Play,
     /// Whether the CAN interface takes frames; that it does not is said once.
     #[cfg_attr(not(target_os = "linux"), expect(dead_code, reason = "there is none"))]
     is_sending: bool,
@@ -308,15 +293,12 @@ impl Loop<'_, '_> {
 
     fn run(mut self, incoming: &Receiver<Event>, events: &SyncSender<Event>) -> u8 {
         while !self.interrupt.is_wanted() {
-            self.act();
-            self.go();
+            self.play();
             let is_quiet = self.speak();
             if let Some(watch) = &mut self.watch {
                 watch.draw(&self.bus, self.hosts.listening(), self.start.elapsed());
             }
-            let tick = self.now() + u64::try_from(TICK.as_micros()).unwrap_or(0);
-            let tick = Some(tick).filter(|_| !self.courses.is_empty());
-            let next = self.bus.next_deadline().into_iter().chain(self.pause).chain(tick).min();
+            let next = self.bus.next_deadline().into_iter().chain(self.play.next_deadline(self.now())).min();
             let deadline = next.map_or(NAP, |next| {
                 Duration::from_micros(next.saturating_sub(self.now())).clamp(SHORTEST, NAP)
             });
@@ -384,84 +366,14 @@ impl Loop<'_, '_> {
         }
     }
 
-    /// Does what the script says, up to where it waits.
-    fn act(&mut self) {
+    /// Does what is due, and says what a node does not do.
+    fn play(&mut self) {
         let now = self.now();
-        if self.pause.is_some_and(|until| now < until) {
-            return;
+        for (at, why) in self.play.go_on(now, self.bus.nodes_mut(), || self.script.next()) {
+            let id = self.bus.nodes_mut().get(at).and_then(VirtualNode::id);
+            let number = id.map_or_else(|| "without node-ID".to_owned(), |id| id.to_string());
+            self.note(&format!("node {number}: {why}"));
         }
-        self.pause = None;
-        while let Some(step) = self.script.next() {
-            let (at, act) = match step {
-                Step::Wait(time) => {
-                    let time = u64::try_from(time.as_micros()).unwrap_or(u64::MAX);
-                    self.pause = Some(now.saturating_add(time));
-                    return;
-                }
-                Step::Act { at, act } => (at, act),
-            };
-            let Some(node) = self.bus.nodes_mut().get_mut(at) else { continue };
-            let refused = match act {
-                Act::Fault(emergency) => match node.raise(emergency, now) {
-                    Raised::New => None,
-                    Raised::Present => Some(format!("error {:04X}h is present already", emergency.code())),
-                    Raised::NotKept => {
-                        Some(format!("error {:04X}h is one too many: it cannot be cleared", emergency.code()))
-                    }
-                },
-                Act::Clear(code) => {
-                    (!node.clear(code, now)).then(|| format!("error {code:04X}h is not present"))
-                }
-                Act::Set { entry, value, name } => {
-                    self.courses.remove(&(at, entry));
-                    refused(node, entry, &value, &name, now)
-                }
-                Act::Go(course) => {
-                    let going = Going { course, since: now, last: Vec::new() };
-                    self.courses.insert((at, going.course.entry), going);
-                    None
-                }
-                Act::Stop(entry) => {
-                    self.courses.remove(&(at, entry));
-                    None
-                }
-            };
-            self.refused(at, refused);
-        }
-    }
-
-    /// Lets values go on that change with time; one that the entry cannot have ends its course.
-    fn go(&mut self) {
-        let now = self.now();
-        let mut over = Vec::new();
-        for ((at, entry), going) in &mut self.courses {
-            let Some(node) = self.bus.nodes_mut().get_mut(*at) else { continue };
-            let passed = Duration::from_micros(now.saturating_sub(going.since));
-            let (value, is_there) = match going.course.at(passed) {
-                Now::Going(value) => (value, false),
-                Now::There(value) => (value, true),
-            };
-            let mut why = None;
-            if value != going.last {
-                why = refused(node, *entry, &value, &going.course.name, now);
-                going.last = value;
-            }
-            if is_there || why.is_some() {
-                over.push(((*at, *entry), why));
-            }
-        }
-        for (key, why) in over {
-            self.courses.remove(&key);
-            self.refused(key.0, why);
-        }
-    }
-
-    /// Says what a node does not do.
-    fn refused(&mut self, at: usize, why: Option<String>) {
-        let Some(why) = why else { return };
-        let id = self.bus.nodes_mut().get(at).and_then(VirtualNode::id);
-        let number = id.map_or_else(|| "without node-ID".to_owned(), |id| id.to_string());
-        self.note(&format!("node {number}: {why}"));
     }
 
     fn note(&mut self, text: &str) {
@@ -498,10 +410,4 @@ impl Loop<'_, '_> {
             self.report.write(&format!("({seconds:.6})  {told}\n"));
         }
     }
-}
-
-/// Gives an entry a value; why it cannot have it.
-fn refused(node: &mut VirtualNode<'_>, entry: EntryId, value: &[u8], name: &str, now: u64) -> Option<String> {
-    let refusal = node.set(entry, value, now).err()?;
-    Some(format!("{name} cannot be set to this: {refusal}"))
 }

@@ -1,4 +1,4 @@
-//! Every access to the dictionaries of PMC, PMM and the Fullmo drive, against the JSON dump, as tests/tests/access.rs does on the host.
+//! Every access to the dictionaries of PMC, PMM and the Fullmo drive, against the JSON dump, as tests/tests/rust/access.rs does on the host.
 #![no_std]
 #![no_main]
 

@@ -1,0 +1,118 @@
+//! The form of the sources: format, lints, documentation.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use od_tests::{Failure, root};
+
+use crate::runner::{self, Runner};
+use crate::tools::has_shipped_target;
+
+/// A call of clippy for which a finding is an error.
+const CLIPPY: [&str; 2] = ["clippy", "--quiet"];
+const DENY: [&str; 3] = ["--", "-D", "warnings"];
+
+/// Firmware that is built for a Cortex-M, outside the workspace, with its sets of features.
+const FIRMWARE: [(&str, &[&str]); 2] =
+    [("firmware-glue/examples/pitch-controller", &["", "names"]), ("tests/thumb/node", &[""])];
+
+/// Folders whose files are declared by a macro.
+const RULES: [&str; 3] = ["od-spec/src/check", "od-spec/src/eds/check", "od-spec/src/plant/rules"];
+
+/// Features of which each is also tried alone.
+const FEATURES: [(&str, &[&str]); 3] = [
+    ("od-gen", &["", "format"]),
+    (
+        "firmware-glue",
+        &[
+            "",
+            "critical-section",
+            "defmt",
+            "embedded-can",
+            "node",
+            "sdo-block",
+            "sdo-client",
+            "sdo-server",
+            "storage",
+        ],
+    ),
+    ("od-spec", &["", "xdd"]),
+];
+
+/// Format, lints and documentation, as they have to be. What users compile with few features, and `firmware-glue` with all of them, is
+/// looked at beside the workspace, which has those that its members ask for.
+pub(crate) fn check(runner: &mut Runner) -> Result<(), Failure> {
+    runner.cargo(&["fmt", "--all", "--check"])?;
+    format_of_rules(runner)?;
+    clippy(runner, &["--workspace", "--all-targets"])?;
+    clippy(runner, &["--package", "firmware-glue", "--all-targets", "--all-features"])?;
+    for package in ["firmware-glue", "od-gen"] {
+        clippy(runner, &["--package", package, "--lib", "--no-default-features"])?;
+    }
+    runner.cargo(&["check", "--quiet", "--package", "od-generated", "--features", "defmt"])?;
+    let mut doc = cargo(&["doc", "--quiet", "--workspace", "--no-deps", "--document-private-items"]);
+    runner.run(doc.env("RUSTDOCFLAGS", "-D warnings"))?;
+    firmware(runner)
+}
+
+/// Rules are declared by a macro, where `cargo fmt` does not find their files.
+fn format_of_rules(runner: &mut Runner) -> Result<(), Failure> {
+    let mut files = Vec::new();
+    for folder in RULES {
+        rust_files(&root().join(folder), &mut files)?;
+    }
+    files.sort();
+    runner.run(Command::new("rustfmt").args(["--check", "--edition", "2024"]).args(files))
+}
+
+/// Adds the Rust files below a folder.
+fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            rust_files(&path, files)?;
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// Where clippy can: Debian's Rust builds `core` without it.
+fn firmware(runner: &mut Runner) -> Result<(), Failure> {
+    if !has_shipped_target() {
+        return Ok(());
+    }
+    for (directory, sets) in FIRMWARE {
+        let manifest = root().join(directory).join("Cargo.toml");
+        let manifest = manifest.to_string_lossy();
+        runner.cargo(&["fmt", "--check", "--manifest-path", &manifest])?;
+        for features in sets {
+            // There the target and the linker's script are named.
+            let mut command = cargo(&CLIPPY);
+            command.args(["--release", "--locked", "--features", features]).args(DENY);
+            runner.run_in(&root().join(directory), &mut command)?;
+        }
+    }
+    Ok(())
+}
+
+/// Each feature alone: who needs one compiles no other.
+pub(crate) fn features(runner: &mut Runner) -> Result<(), Failure> {
+    for (package, features) in FEATURES {
+        for feature in features {
+            clippy(runner, &["--package", package, "--lib", "--no-default-features", "--features", feature])?;
+        }
+    }
+    Ok(())
+}
+
+fn clippy(runner: &mut Runner, what: &[&str]) -> Result<(), Failure> {
+    runner.cargo(&[&CLIPPY, what, &DENY].concat())
+}
+
+fn cargo(arguments: &[&str]) -> Command {
+    let mut command = runner::cargo();
+    command.args(arguments);
+    command
+}

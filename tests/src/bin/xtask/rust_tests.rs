@@ -1,0 +1,40 @@
+//! The tests of the workspace's crates.
+
+use od_tests::{Failure, LONG};
+
+use crate::parts::{Part, Turn};
+use crate::runner::{self, Runner};
+
+/// Compiles before anything runs what several parts run: what is compiled replaces programs that others would be using.
+pub(crate) fn compile(runner: &mut Runner, parts: &[&Part]) -> Result<(), Failure> {
+    if parts.iter().any(|part| part.name == "rust") {
+        runner.cargo(&["test", "--quiet", "--workspace", "--no-run"])
+    } else if parts.iter().any(|part| part.turn != Turn::First) {
+        runner.cargo(&["build", "--quiet", "--workspace", "--bins"])
+    } else {
+        Ok(())
+    }
+}
+
+/// The tests beside the sources.
+pub(crate) fn unit(runner: &mut Runner) -> Result<(), Failure> {
+    runner.cargo(&["test", "--quiet", "--workspace", "--lib", "--bins", "--no-fail-fast"])
+}
+
+/// The tests in folders of their own.
+pub(crate) fn integration(runner: &mut Runner) -> Result<(), Failure> {
+    runner.cargo(&["test", "--workspace", "--test", "*", "--no-fail-fast"])
+}
+
+/// The examples in the documentation, and what of `firmware-glue` no other package asks for.
+pub(crate) fn examples(runner: &mut Runner) -> Result<(), Failure> {
+    runner.cargo(&["test", "--quiet", "--workspace", "--doc", "--no-fail-fast"])?;
+    runner.cargo(&["test", "--quiet", "--package", "firmware-glue", "--all-features", "--no-fail-fast"])
+}
+
+/// The tests in folders of their own, which try everything.
+pub(crate) fn long(runner: &mut Runner) -> Result<(), Failure> {
+    let mut command = runner::cargo();
+    command.args(["test", "--quiet", "--workspace", "--test", "*", "--no-fail-fast"]);
+    runner.run(command.env(LONG, "1").env("PROPTEST_CASES", "100"))
+}

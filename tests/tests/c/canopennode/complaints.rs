@@ -1,0 +1,403 @@
+//! What users of other exporters for this stack complain about does not happen here: a test for each kind.
+
+use od_tests::{compile_with_sources, root};
+
+use crate::canopennode::project::{Project, of_text, of_workspace, told};
+
+/// The lines of a file that begin so.
+fn lines<'t>(text: &'t str, begin: &str) -> Vec<&'t str> {
+    text.lines().map(str::trim).filter(|line| line.starts_with(begin)).collect()
+}
+
+fn of_eds(key: &str) -> Project {
+    let text = std::fs::read_to_string(root().join(format!("generated/eds/{key}.eds"))).unwrap();
+    of_text(&format!("{key}-again.eds"), &text)
+}
+
+#[test]
+fn an_eds_gives_the_counters_of_the_specification() {
+    for project in of_workspace("od-spec/devices/pitch-control-system.od.yaml") {
+        let of_eds = of_eds(project.key());
+        let counters = |project: &Project| lines(&project.file("OD.h"), "#define OD_CNT_").join("\n");
+        assert_eq!(counters(&of_eds), counters(&project));
+        for (name, count) in
+            [("NMT", 1), ("EM", 1), ("EM_PROD", 1), ("HB_PROD", 1), ("SDO_SRV", 1), ("RPDO", 4), ("TPDO", 4)]
+        {
+            assert!(counters(&project).contains(&format!("#define OD_CNT_{name} {count}")), "{name}");
+        }
+    }
+}
+
+#[test]
+fn an_eds_gives_the_attributes_of_the_specification() {
+    for project in of_workspace("od-spec/devices/fullmo-drive.od.yaml") {
+        let attributes = |project: &Project| lines(&project.file("OD.c"), ".attribute").join("\n");
+        let of_specification = attributes(&project);
+        assert_eq!(attributes(&of_eds(project.key())), of_specification);
+        for expected in
+            ["ODA_SDO_RW | ODA_RPDO | ODA_MB", "ODA_SDO_R | ODA_TPDO | ODA_MB", "ODA_SDO_RW | ODA_MB"]
+        {
+            assert!(of_specification.contains(&format!(".attribute = {expected},")), "{expected}");
+        }
+    }
+}
+
+#[test]
+fn types_of_objects_are_those_that_the_stack_knows() {
+    for project in of_workspace("tests/readers/everything.od.yaml") {
+        let code = project.file("OD.c");
+        let kinds = ["ODT_VAR", "ODT_ARR", "ODT_REC"];
+        let known: usize = kinds.iter().map(|kind| code.matches(&format!("{kind},")).count()).sum();
+        assert_eq!(
+            (code.matches("ODT_").count(), known),
+            (known, project.device["objects"].as_array().unwrap().len())
+        );
+    }
+}
+
+#[test]
+fn counters_follow_the_index_and_nothing_else() {
+    // NMT start-up is about NMT, too, and counts nothing.
+    let text = specification("  0x1F80: {name: NMT startup, type: unsigned32, access: rw, default: 0}");
+    let header = of_text("startup.od.yaml", &text).file("OD.h");
+    assert_eq!(lines(&header, "#define OD_CNT_NMT"), ["#define OD_CNT_NMT 1"]);
+    assert!(header.contains("#define OD_ENTRY_H1F80 "));
+}
+
+#[test]
+fn a_formula_is_a_number_however_it_is_written() {
+    for formula in ["$NODEID+0x181", "$NodeID+0x181", "$nodeid+0x181", "0x181+$NODEID"] {
+        let text = eds(&format!(
+            "[2000]\nParameterName=own identifier\nObjectType=7\nDataType=7\nAccessType=rw\nDefaultValue={formula}\n"
+        ));
+        let project = of_text("formula.eds", &text);
+        assert!(project.file("OD.c").contains(".x2000_ownIdentifier = 385UL,"), "{formula}");
+        assert!(!project.file("OD.c").to_lowercase().contains("nodeid"), "{formula}");
+        assert!(
+            project.file("OD_rules.c").contains("{0x2000U, 0U, OD_NUMBER_UNSIGNED, 4U, (385ULL)}"),
+            "{formula}"
+        );
+        assert!(project.told.contains("does not add the node-ID to 2000h"), "{}", project.told);
+    }
+}
+
+#[test]
+fn nothing_of_unknown_size_is_a_variable() {
+    let text = eds("[2000]\nParameterName=program\nObjectType=2\nDataType=15\nAccessType=rw\n\
+                    [2001]\nParameterName=text\nObjectType=7\nDataType=9\nAccessType=const\nDefaultValue=\n\
+                    [2002]\nParameterName=note\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=\n");
+    let project = of_text("empty.eds", &text);
+    let listed = project.run("list_entries.c", &[]);
+    assert!(listed.contains("entry 2000 0 03 0 -\n"), "{listed}");
+    assert!(listed.contains("entry 2002 0 83 32 00 00"), "{listed}");
+    assert!(!project.file("OD.h").contains("not specified"));
+    let text = specification("  0x2000: {name: note, type: visible-string, access: const, default: \"\"}");
+    let listed = of_text("note.od.yaml", &text).run("list_entries.c", &[]);
+    assert!(listed.contains("entry 2000 0 81 1 00\n"), "{listed}");
+}
+
+#[test]
+fn a_mapping_says_the_length_of_what_is_mapped() {
+    for project in of_workspace("tests/readers/everything.od.yaml") {
+        let listed = project.run("list_entries.c", &[]);
+        let length = |index: &str, sub: u8| {
+            let begin = format!("entry {index} {sub} ");
+            let line = listed.lines().find(|line| line.starts_with(&begin)).unwrap();
+            line.split(' ').nth(4).unwrap().parse::<usize>().unwrap()
+        };
+        let mut mapped = 0;
+        for line in listed.lines().filter(|line| line.starts_with("entry 16") || line.starts_with("entry 1A"))
+        {
+            let words: Vec<&str> = line.split(' ').collect();
+            let [bits, sub, low, high] = words[5..] else { continue };
+            if words[2] != "0" && (low, high) != ("00", "00") {
+                let (bits, sub) =
+                    (usize::from_str_radix(bits, 16).unwrap(), u8::from_str_radix(sub, 16).unwrap());
+                assert_eq!(bits, 8 * length(&format!("{high}{low}"), sub), "{line}");
+                mapped += 1;
+            }
+        }
+        assert!(mapped > 5, "{mapped}");
+    }
+}
+
+#[test]
+fn every_object_is_there_and_in_order() {
+    for project in of_workspace("od-spec/devices/pitch-control-system.od.yaml") {
+        let listed = project.run("list_entries.c", &[]);
+        let found: Vec<String> =
+            lines(&listed, "object").iter().map(|line| format!("0x{}", &line[7..11])).collect();
+        let objects = project.device["objects"].as_array().unwrap();
+        assert_eq!(
+            found,
+            objects.iter().map(|object| object["index"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+        );
+        assert!(found.is_sorted());
+    }
+}
+
+#[test]
+fn what_the_stack_does_not_compile_without_is_refused() {
+    let has = |text: &str, expected: &str| {
+        let (told, is_made) = told("refused.eds", text);
+        assert!(told.contains(expected) && !is_made, "{expected} in {told}");
+    };
+    let whole = eds("");
+    for (index, name) in
+        [("1000", "device type"), ("1001", "error register"), ("1017", "producer heartbeat time")]
+    {
+        has(
+            &without(&whole, index),
+            &format!("has no {index}h ({name}), and CANopenNode does not compile without it"),
+        );
+    }
+    has(&eds(&pdo(0x1400, 1)), "RPDO 1 has 1400h and no 1600h");
+    has(&eds(&pdo(0x1A00, 1)), "TPDO 1 has 1A00h and no 1800h");
+    has(
+        &eds(&[pdo(0x1801, 2), pdo(0x1A01, 2)].concat()),
+        "the first TPDO of `refused` is number 2, and CANopenNode begins with number 1",
+    );
+}
+
+#[test]
+fn what_the_stack_has_to_be_set_up_for_is_told() {
+    let has = |text: &str, expected: &str| {
+        let (told, is_made) = told("told.eds", text);
+        assert!(told.contains(expected) && is_made, "{expected} in {told}");
+    };
+    let whole = eds("");
+    assert_eq!(told("whole.eds", &whole).0, "");
+    for (index, expected) in [
+        ("1014", "compile the stack with `CO_CONFIG_EM` without `CO_CONFIG_EM_PRODUCER`"),
+        ("1016", "compile the stack with `CO_CONFIG_HB_CONS` set to 0"),
+        ("1018", "the stack's example reads the identity"),
+    ] {
+        has(&without(&whole, index), expected);
+    }
+    has(&eds(&var("1005", "7", "rw", "0x80")), "has no 1006h (communication cycle period)");
+    let gap = [pdo(0x1400, 2), pdo(0x1404, 2), pdo(0x1600, 1), pdo(0x1604, 1)].concat();
+    has(&eds(&gap), "number 5 is at place 2");
+    let fixed = [pdo(0x1800, 2).replace("DefaultValue=1\n", "DefaultValue=0x180\n"), pdo(0x1A00, 1)].concat();
+    has(&eds(&fixed), "1800h.1 (s1) is the same for every node, and CANopenNode adds the node-ID to it");
+    has(
+        &eds(&[pdo(0x1800, 1), pdo(0x1A00, 1)].concat()),
+        "1800h has no sub-index 2, and CANopenNode does not start without it",
+    );
+    has(&eds(&var("1017", "6", "rw", "100\nHighLimit=1000")), "1017h (v1017) has limits");
+}
+
+/// PDO 5 is the second one of the stack, to which it adds nothing of its own: the node-ID comes from the generated function, and where the second one
+/// holds the base of the second one, from the stack.
+#[test]
+fn a_gap_between_pdos_does_not_move_identifiers() {
+    let of_base = |base: &str| {
+        let second = pdo(0x1404, 2).replace("DefaultValue=1\n", &format!("DefaultValue=$NODEID+{base}\n"));
+        let text = eds(&[pdo(0x1400, 2), second, pdo(0x1600, 1), pdo(0x1604, 1)].concat());
+        of_text("gap.eds", &text).file("OD_rules.c").contains("{0x1404U, 1U, OD_NUMBER_UNSIGNED, 4U,")
+    };
+    assert_eq!((of_base("0x300"), of_base("0x400"), of_base("0x600")), (false, true, true));
+}
+
+#[test]
+fn elements_that_differ_are_members_of_a_record() {
+    let entry = |sub: u8, rest: &str| {
+        format!(
+            "[2000sub{sub}]\nParameterName=Part {sub}\nObjectType=7\nDataType=6\nAccessType=rw\nDefaultValue={sub}\n{rest}"
+        )
+    };
+    let array = |rest: &str| {
+        let count = "[2000]\nParameterName=list\nObjectType=8\nSubNumber=3\n[2000sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=2\n";
+        eds(&[count, &entry(1, ""), &entry(2, rest)].concat())
+    };
+    let list = |text: &str| of_text("elements.eds", text).run("list_entries.c", &[]);
+    assert!(list(&array("")).contains("object 2000 2 3\n"));
+    let differs = list(&array("PDOMapping=1\n"));
+    assert!(differs.contains("object 2000 3 3\n"), "{differs}");
+    assert!(
+        differs.contains("entry 2000 1 43 2 01 00\n") && differs.contains("entry 2000 2 4F 2 02 00\n"),
+        "{differs}"
+    );
+}
+
+#[test]
+fn names_that_clash_or_are_words_of_c_are_told_apart() {
+    let entry = |sub: u8, name: &str| {
+        format!("      {sub}: {{name: {name}, type: unsigned8, access: rw, default: {sub}}}\n")
+    };
+    let names = ["int", "speed limit", "speed", "class", "double"];
+    let members: String = names.iter().zip(1u8..).map(|(name, sub)| entry(sub, name)).collect();
+    let text = specification(&format!("  0x2000:\n    name: words\n    record:\n{members}"));
+    let header = of_text("words.od.yaml", &text).file("OD.h");
+    for member in ["int_", "speedLimit", "speed", "class_", "double_"] {
+        assert!(header.contains(&format!("        uint8_t {member};\n")), "{member} in {header}");
+    }
+    let twice = eds("[2000]\nParameterName=twins\nObjectType=9\nSubNumber=3\n\
+                     [2000sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+                     [2000sub1]\nParameterName=a b\nDataType=5\nAccessType=rw\n[2000sub2]\nParameterName=a (b)\nDataType=5\nAccessType=rw\n");
+    let header = of_text("twins.eds", &twice).file("OD.h");
+    assert!(header.contains("uint8_t aB_1;") && header.contains("uint8_t aB_2;"), "{header}");
+}
+
+/// Files are often called `OD`, and a device of an EDS as its file.
+#[test]
+fn a_device_may_be_called_as_names_of_the_stack_begin() {
+    let text = specification(
+        "  0x2000: {name: state, type: entry, access: rw}\n  0x2001: {name: way, type: rule, access: rw}\n\
+         types:\n  entry: {base: unsigned8, values: {0: x, 1: h2000}}\n  rule: {base: unsigned8, values: {0: listed, 1: locked}}",
+    );
+    let project = of_text("od.od.yaml", &text.replace("{thing: {", "{od: {"));
+    assert_eq!(lines(&project.file("OD_types.h"), "#define OD_").len(), 0);
+    project.run("list_entries.c", &[]);
+}
+
+#[test]
+fn a_device_answers_sdos_without_1200h() {
+    let of = |text: &str| lines(&of_text("sdo.eds", text).file("OD.h"), "(config).CNT_SDO_SRV").concat();
+    assert_eq!(of(&eds("")), "(config).CNT_SDO_SRV = 1; \\");
+    let described = "[1200]\nParameterName=server\nObjectType=9\nSubNumber=3\n\
+        [1200sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+        [1200sub1]\nParameterName=a\nDataType=7\nAccessType=ro\nDefaultValue=$NODEID+0x600\n\
+        [1200sub2]\nParameterName=b\nDataType=7\nAccessType=ro\nDefaultValue=$NODEID+0x580\n";
+    assert_eq!(of(&eds(described)), "(config).CNT_SDO_SRV = OD_CNT_SDO_SRV; \\");
+}
+
+#[test]
+fn a_condition_that_is_too_wide_is_told_where_it_stands() {
+    let text = specification(
+        "  0x2000: {name: wide, type: unsigned64, access: rw}\n  0x2001: {name: kept, type: unsigned8, access: rw, writable-when: 0x2000 < 50}",
+    );
+    let (told, is_made) = told("wide.od.yaml", &text);
+    assert!(told.contains("`0x2000 < 50` needs numbers of more than 64 bits") && !is_made, "{told}");
+    let (line, column) =
+        text.lines().zip(1..).find_map(|(line, number)| Some((number, 1 + line.find("0x2000 <")?))).unwrap();
+    assert!(told.contains(&format!("wide.od.yaml:{line}:{column}")), "{told}");
+}
+
+#[test]
+fn a_heading_stands_before_something() {
+    let heading = "/* Elements of each ARRAY, without sub-index 0. */";
+    let bare = without(&eds(""), "1016");
+    for (name, text, arrays) in [("array.eds", eds(""), 1), ("no-array.eds", bare, 0)] {
+        let header = of_text(name, &text).file("OD.h");
+        assert_eq!(lines(&header, "#define OD_CNT_ARR_").len(), arrays, "{name}");
+        assert_eq!(lines(&header, heading).len(), arrays, "{name}");
+    }
+}
+
+/// A device that the stack takes without a word, and more objects.
+fn eds(objects: &str) -> String {
+    let head = "[DeviceInfo]\nProductName=thing\n";
+    let own: Vec<String> = objects
+        .lines()
+        .filter_map(|line| line.strip_prefix('[')?.strip_suffix(']'))
+        .map(str::to_owned)
+        .collect();
+    let all = [
+        var("1000", "7", "ro", "0"),
+        var("1001", "5", "ro", "0"),
+        var("1014", "7", "rw", "$NODEID+0x80"),
+        "[1016]\nParameterName=consumers\nObjectType=8\nSubNumber=2\n[1016sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+         [1016sub1]\nParameterName=consumer\nDataType=7\nAccessType=rw\nDefaultValue=0\n"
+            .to_owned(),
+        var("1017", "6", "rw", "0"),
+        "[1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n[1018sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+         [1018sub1]\nParameterName=Vendor-ID\nDataType=7\nAccessType=ro\nDefaultValue=0\n"
+            .to_owned(),
+    ];
+    let others =
+        all.into_iter().filter(|section| !own.iter().any(|name| section.starts_with(&format!("[{name}]"))));
+    [head.to_owned(), others.collect::<String>(), objects.to_owned()].concat()
+}
+
+/// The file without an object.
+fn without(text: &str, index: &str) -> String {
+    let mut is_in = false;
+    let mut kept = String::new();
+    for line in text.lines() {
+        if let Some(name) = line.strip_prefix('[') {
+            is_in = name.starts_with(index);
+        }
+        if !is_in {
+            kept.push_str(line);
+            kept.push('\n');
+        }
+    }
+    kept
+}
+
+fn var(index: &str, data_type: &str, access: &str, default: &str) -> String {
+    format!(
+        "[{index}]\nParameterName=v{index}\nObjectType=7\nDataType={data_type}\nAccessType={access}\nDefaultValue={default}\n"
+    )
+}
+
+/// A parameter object of a PDO with so many entries behind sub-index 0.
+fn pdo(index: u16, count: u8) -> String {
+    let is_mapping = index & 0x0200 != 0;
+    let sub = |sub: u8| {
+        let (data_type, default) = match (is_mapping, sub) {
+            (true, 0) => ("5", "0".to_owned()),
+            (false, 0) => ("5", count.to_string()),
+            (true, _) => ("7", "0".to_owned()),
+            (false, 1) => ("7", "1".to_owned()),
+            (false, _) => ("5", "255".to_owned()),
+        };
+        let access = if sub == 0 && !is_mapping { "ro" } else { "rw" };
+        format!(
+            "[{index:04X}sub{sub}]\nParameterName=s{sub}\nObjectType=7\nDataType={data_type}\nAccessType={access}\nDefaultValue={default}\n"
+        )
+    };
+    let subs: String = (0..=count).map(sub).collect();
+    format!("[{index:04X}]\nParameterName=p{index:04X}\nObjectType=9\nSubNumber={}\n{subs}", count + 1)
+}
+
+/// A specification with the objects of every device, and more.
+pub(crate) fn specification(objects: &str) -> String {
+    format!(
+        "od-spec: 1\ntitle: Thing\nuses: [cia301]\ndevices: {{thing: {{name: Thing, bit-rates: [125], features: [emergency, heartbeat producer]}}}}\nobjects:\n{objects}\n"
+    )
+}
+
+#[test]
+fn the_files_are_the_same_in_every_run() {
+    let (system, sources) = compile_with_sources("tests/readers/everything.od.yaml").unwrap();
+    let make = || {
+        let mut diagnostics = od_spec::diag::Diagnostics::new();
+        let provenance = od_gen::Provenance::of(&sources);
+        od_c::artifacts(
+            &system,
+            system.devices.iter(),
+            &provenance,
+            &[od_c::Kind::CanopenNode],
+            &mut diagnostics,
+        )
+    };
+    let first = make();
+    assert!(first.len() > 5);
+    for file in &first {
+        let text = std::str::from_utf8(&file.bytes).unwrap();
+        assert!(
+            text.is_ascii() && text.ends_with('\n') && !text.contains(" \n") && !text.contains('\t'),
+            "{}",
+            file.path
+        );
+        assert!(text.contains("@generated"), "{}", file.path);
+    }
+    for _ in 0..3 {
+        assert!(make() == first);
+    }
+}
+
+#[test]
+fn every_entry_has_a_comment() {
+    for project in of_workspace("od-spec/devices/pitch-control-system.od.yaml") {
+        let header = project.file("OD.h");
+        for object in project.device["objects"].as_array().unwrap() {
+            let index = object["index"].as_str().unwrap().trim_start_matches("0x");
+            if index == "1003" || object["entries"][0].get("alias").is_some() {
+                continue;
+            }
+            assert!(header.contains(&format!("{index}h ")), "{index}");
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Generated C: it compiles, and does what the specification says.
+
+mod canopennode;
+mod dictionary;
+mod names;
