@@ -1,4 +1,4 @@
-//! The firmware in the README does what it says.
+//! The firmware in the README does what it says, and the files that CONTRIBUTING names exist.
 
 mod fragment {
     include!("../../readme/firmware.rs");
@@ -18,4 +18,23 @@ mod fragment {
         assert_eq!(format!("{:?}", hardware.set_point), "12.0 bar");
         assert_eq!(od.set_pressure(), Decibar(120));
     }
+}
+
+/// Names in upper case stand for any; what is before them has to exist.
+#[test]
+fn files_that_contributors_look_for_exist() {
+    let root = od_tests::root();
+    let text = std::fs::read_to_string(root.join("CONTRIBUTING.md")).expect("it can be read");
+    let quoted = text.split('`').skip(1).step_by(2);
+    let tops = ["docs/", "docs-gen/", "firmware-glue/", "od-gen/", "od-macros/", "od-spec/", "tests/"];
+    let paths = quoted.filter(|path| tops.iter().any(|top| path.starts_with(top)) && !path.contains(' '));
+    let is_any = |part: &str| part.contains('*') || part.starts_with(|sign: char| sign.is_ascii_uppercase());
+    let is_there = |path: &str| {
+        let parts: Vec<&str> = path.split('/').take_while(|part| !is_any(part)).collect();
+        root.join(parts.join("/")).exists()
+    };
+    let paths: Vec<&str> = paths.collect();
+    assert!(paths.len() > 30, "{paths:?}");
+    let missing: Vec<&&str> = paths.iter().filter(|path| !is_there(path)).collect();
+    assert!(missing.is_empty(), "there is no {missing:?}");
 }
