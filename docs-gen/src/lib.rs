@@ -4,36 +4,23 @@
 //! language, with nothing left to decide but looks. Then templates print it: Markdown and HTML come with this crate, and
 //! a directory of a user's own templates can replace or join them.
 
-mod appendix;
-mod cell;
-mod chapters;
-mod conditions;
-mod device;
-mod groups;
-mod indices;
+mod diagrams;
+mod files;
 mod language;
-mod long_list;
-mod markdown;
-mod mentions;
-mod numbers;
 mod options;
-mod outline;
+mod pages;
 mod printed;
-mod series;
 mod source;
-mod synonyms;
 mod tables;
 mod templates;
-mod uses;
 pub mod view;
-mod warnings;
 
 use od_spec::model::System;
 
-pub use language::LANGUAGES;
-pub use markdown::escape as escape_markdown;
+pub use files::{artifacts, dump_context, options};
 pub use options::Options;
 pub use printed::{Difference, PrintedTable, TableIndex};
+pub use templates::markdown::escape as escape_markdown;
 pub use templates::{Format, Page, TemplateError, Templates};
 pub use view::Context;
 
@@ -45,7 +32,7 @@ pub fn context(system: &System, options: &Options) -> Context {
     let mut devices: Vec<view::DeviceView> =
         source.devices.iter().map(|device| source.only(device).device(device)).collect();
     let mut appendices = source.appendices();
-    appendix::letter(&mut appendices, &mut devices, source.word(language::Word::Appendix));
+    pages::appendix::letter(&mut appendices, &mut devices, source.word(language::Word::Appendix));
     let chapters = source.chapter_views();
     Context {
         format: view::FORMAT,

@@ -3,8 +3,8 @@
 use od_spec::model::{ErratumKind, ErratumPlace, TableContent, TableId};
 use serde::Serialize;
 
-use crate::outline::kind_of;
 use crate::source::Source;
+use crate::source::outline::kind_of;
 use crate::view::{Cell, FigureView};
 
 /// Index of the manual's tables, for programs.

@@ -1,14 +1,17 @@
-//! Every fixed word of the documents stands in some document: a word that nothing shows is a leftover.
+//! Every fixed word of the documents is in some document, and documents have no fixed word that no language file has.
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use docs_gen::{Format, Options, Templates, context};
 use minijinja::value::{Serde, Value};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
+use od_spec::wording::{Language, Texts};
 use od_spec::{Loader, compile};
 
 /// Specifications that have, together with [`VIEWS`], everything that documents can show.
@@ -65,13 +68,24 @@ objects:
 pdos: {lamp: {receive: {1: {map: [level]}}}}
 ";
 
-fn system(name: &str, text: &str) -> System {
-    let mut sources = SourceMap::new();
-    let file = sources.add(name, text);
-    compile(&mut sources, file, &mut Devices).system.unwrap_or_else(|| panic!("{name} has mistakes"))
+/// A specification, and the texts of all its files.
+struct Specification {
+    system: System,
+    texts: String,
 }
 
-fn systems() -> Vec<System> {
+fn system(name: &str, text: &str) -> Specification {
+    let mut sources = SourceMap::new();
+    let file = sources.add(name, text);
+    let system = compile(&mut sources, file, &mut Devices).system;
+    let system = system.unwrap_or_else(|| panic!("{name} has mistakes"));
+    Specification {
+        system,
+        texts: sources.files().map(|(_, file)| file.text()).collect::<Vec<_>>().join("\n"),
+    }
+}
+
+fn systems() -> Vec<Specification> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let read = |path: &&str| system(path, &std::fs::read_to_string(root.join(path)).unwrap());
     SPECIFICATIONS.iter().map(read).chain([system("views", VIEWS), system("lamp", SAVED_TOGETHER)]).collect()
@@ -101,10 +115,10 @@ fn words(system: &System, language: &str) -> Words {
     let options = Options { language: Some(language.to_owned()), ..Options::default() };
     let mut context = context(system, &options);
     let words = context.words.clone();
-    context.words = std::collections::BTreeMap::new();
+    context.words = BTreeMap::new();
     // Words that the view itself brings stand in it as they are.
     let view = Value::from(Serde(&context)).to_string();
-    let in_view = |text: &str| text.split("{n}").all(|part| has_words(&view, part.trim()));
+    let in_view = |text: &str| text.split("{1}").all(|part| has_words(&view, part.trim()));
     let mut shown: BTreeSet<&'static str> =
         words.iter().filter(|(_, text)| in_view(text)).map(|(key, _)| *key).collect();
     let markers: Vec<(&'static str, String)> = words.keys().map(|key| (*key, marker(key))).collect();
@@ -121,15 +135,104 @@ fn words(system: &System, language: &str) -> Words {
 #[test]
 fn every_word_is_shown_in_every_language() {
     let systems = systems();
-    for language in docs_gen::LANGUAGES {
+    for language in Language::ALL {
         let mut missing: BTreeSet<&str> = BTreeSet::new();
         let mut found: BTreeSet<&str> = BTreeSet::new();
-        for system in &systems {
-            let Words { known, shown } = words(system, language);
+        for Specification { system, .. } in &systems {
+            let Words { known, shown } = words(system, language.code());
             missing.extend(known);
             found.extend(shown);
         }
         missing.retain(|word| !found.contains(word));
-        assert!(missing.is_empty(), "no document shows these words in {language}: {missing:?}");
+        assert!(missing.is_empty(), "no document shows these words in {language:?}: {missing:?}");
     }
+}
+
+/// A language whose texts are those of English in brackets.
+static BRACKETED: LazyLock<Texts> = LazyLock::new(|| {
+    let mut file = String::new();
+    // German has a line for each word that English takes from specifications.
+    for line in Language::GERMAN.lines() {
+        let text = Language::ENGLISH.text(line.section, line.key);
+        write!(file, "[{}]\n{} = ⟦{text}⟧\n", line.section, line.key).unwrap();
+    }
+    Texts::read(file.leak())
+});
+
+/// What a page shows: without tags, styles, scripts and the targets of links, but with what tags show or say of themselves.
+fn shown(page: &str) -> String {
+    let mut text = page.to_owned();
+    for (start, end) in [("<!--", "-->"), ("<style", "</style>"), ("<script", "</script>"), ("](", ")")] {
+        while let Some(at) = text.find(start) {
+            let length = text[at..].find(end).map_or(text.len() - at, |length| length + end.len());
+            text.replace_range(at..at + length, " ");
+        }
+    }
+    let mut shown = String::new();
+    for piece in text.split('<') {
+        let (tag, rest) = piece.split_once('>').unwrap_or(("", piece));
+        for attribute in [" title=\"", " aria-label=\"", " placeholder=\"", " alt=\""] {
+            shown.extend(tag.split_once(attribute).and_then(|(_, value)| value.split('"').next()));
+            shown.push(' ');
+        }
+        shown.push_str(rest);
+    }
+    shown
+}
+
+/// What is outside of all brackets.
+fn outside_brackets(text: &str) -> String {
+    let (mut depth, mut outside) = (0_usize, String::new());
+    for sign in text.chars() {
+        match sign {
+            '⟦' => depth += 1,
+            '⟧' => depth = depth.saturating_sub(1),
+            _ if depth == 0 => outside.push(sign),
+            _ => {}
+        }
+    }
+    outside
+}
+
+/// The words of a text; without hexadecimal numbers, and without abbreviations in upper case, which are the same in every
+/// language.
+fn words_of(text: &str) -> impl Iterator<Item = &str> {
+    let is_number =
+        |word: &str| word.strip_suffix('h').is_some_and(|word| !word.contains(char::is_lowercase));
+    let words = text.split(|sign: char| !sign.is_alphabetic());
+    words.filter(move |word| word.contains(char::is_lowercase) && word.len() > 1 && !is_number(word))
+}
+
+/// Units and signs of HTML, which are the same in every language.
+const TERMS: [&str; 5] = ["kbit", "amp", "gt", "lt", "quot"];
+
+#[test]
+fn every_fixed_text_is_in_the_language_files() {
+    let mut hard_coded: BTreeMap<String, String> = BTreeMap::new();
+    // The shipped devices show nothing else, and take long.
+    for Specification { system, texts } in systems().into_iter().skip(2) {
+        let mut known: BTreeSet<&str> = words_of(&texts).chain(TERMS).collect();
+        // `unknown` where the specification names none.
+        known.extend(words_of(&system.vendor.name));
+        for (_, object, entry) in system.devices.iter().flat_map(|device| device.entries()) {
+            let about = entry.about.iter().map(|(_, text)| text);
+            known.extend(about.chain([&*object.name, &*entry.name]).flat_map(words_of));
+        }
+        let words = Some(Language::new("xx", || &BRACKETED));
+        let context = context(&system, &Options { words, errata: true, ..Options::default() });
+        for format in [Format::Markdown, Format::Html, Format::Print] {
+            for page in Templates::new(Some(format), &[]).unwrap().print(&context).unwrap() {
+                for line in outside_brackets(&shown(&page.text)).lines() {
+                    // A table without number and title is called by its anchor.
+                    let called = line.split(' ').filter(|part| !part.contains("section-"));
+                    for word in called.flat_map(words_of).filter(|word| !known.contains(word)) {
+                        hard_coded
+                            .entry(word.to_owned())
+                            .or_insert_with(|| format!("{}, {}: {line}", system.title, page.path));
+                    }
+                }
+            }
+        }
+    }
+    assert!(hard_coded.is_empty(), "no language file has these words: {hard_coded:#?}");
 }

@@ -147,7 +147,8 @@ impl Builder {
     /// Writes `KEY.rs` for each device; returns the files.
     ///
     /// # Errors
-    /// All mistakes of the specification, or that a file cannot be written. Nothing was written then.
+    /// All mistakes of the specification: then nothing was written. Or a file cannot be written: those
+    /// before it are, and the message names them.
     pub fn try_generate(&self) -> Result<Vec<PathBuf>, Box<BuildError>> {
         let Outcome { diagnostics, sources, written, .. } = self.run();
         if diagnostics.has_errors() {
@@ -189,9 +190,7 @@ impl Builder {
                             Reason::NotGenerated(_) => {
                                 "generate into another directory, or remove what is there"
                             }
-                            _ => {
-                                "nothing was changed; check the directory, its permissions and the free space"
-                            }
+                            _ => error.advice(),
                         };
                         diagnostics.push(not_written(&error.to_string(), help));
                     }

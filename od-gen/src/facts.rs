@@ -8,11 +8,7 @@ use od_spec::wording::Wording;
 use crate::plan::{Place, Plan, PlannedBits, PlannedEntry};
 
 /// Type, access, mapping, unit, range, special values, default, storage.
-pub(crate) fn facts(
-    planned: &PlannedEntry<'_>,
-    wording: Wording,
-    escape: impl Fn(&str) -> String,
-) -> Vec<String> {
+pub fn facts(planned: &PlannedEntry<'_>, wording: Wording, escape: impl Fn(&str) -> String) -> Vec<String> {
     let (index, entry) = (planned.id.index, planned.entry);
     let mut facts = vec![entry.data_type.to_string(), wording.access(entry)];
     facts.extend(stated(wording.mapping(entry.pdo)));
@@ -32,7 +28,7 @@ fn stated(words: &str) -> Option<String> {
 }
 
 /// Place, name and meaning of bits, and how they act.
-pub(crate) fn bits(plan: &Plan<'_>, bits: &PlannedBits<'_>, escape: impl Fn(&str) -> String) -> String {
+pub fn bits(plan: &Plan<'_>, bits: &PlannedBits<'_>, escape: impl Fn(&str) -> String) -> String {
     let place = if bits.first == bits.last {
         format!("Bit {}", bits.first)
     } else {
@@ -63,7 +59,7 @@ pub(crate) fn bits(plan: &Plan<'_>, bits: &PlannedBits<'_>, escape: impl Fn(&str
 }
 
 /// Name and meaning of an error, and what the device does about it, if it treats it.
-pub(crate) fn error(plan: &Plan<'_>, error: &ErrorCode, escape: impl Fn(&str) -> String) -> String {
+pub fn error(plan: &Plan<'_>, error: &ErrorCode, escape: impl Fn(&str) -> String) -> String {
     let is_treated = plan.treats(error);
     let mut rest = String::new();
     let reaction = Some(&error.reaction).filter(|_| is_treated);
@@ -87,7 +83,7 @@ pub(crate) fn error(plan: &Plan<'_>, error: &ErrorCode, escape: impl Fn(&str) ->
 
 impl Plan<'_> {
     /// Whether the device treats the error as priority, reaction and option code say.
-    pub(crate) fn treats(&self, error: &ErrorCode) -> bool {
+    pub fn treats(&self, error: &ErrorCode) -> bool {
         error.treated_by.includes(&self.device.key)
     }
 }

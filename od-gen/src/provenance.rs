@@ -9,8 +9,7 @@ use od_spec::visible::visible;
 /// files for the same facts make the same code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Provenance {
-    /// Name of the specification's file, as it can stand in a comment of one line.
-    pub(crate) name: String,
+    name: String,
 }
 
 impl Provenance {
@@ -19,5 +18,10 @@ impl Provenance {
         let first = sources.files().next().map_or("", |(_, file)| file.name());
         let name = Path::new(first).file_name().unwrap_or_default().to_string_lossy();
         Self { name: visible(&name).into_owned() }
+    }
+
+    /// Name of the specification's file, as it can stand in a comment of one line.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 }

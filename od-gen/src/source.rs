@@ -6,9 +6,8 @@ use std::io::{self, Read as _};
 use std::path::{Component, Path, PathBuf};
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::eds::{is_eds, readers};
 use od_spec::source::{FileId, SourceMap};
-use od_spec::{Compiled, Loader, Strictness, add_source, compile_as, departures, part_of};
+use od_spec::{Compiled, Loader, Strictness, add_source, compile_as, part_of};
 
 /// A little more than the compiler accepts, so that larger files are refused without being read whole.
 const READ_LIMIT: u64 = (64 << 20) + 1;
@@ -68,19 +67,6 @@ pub fn compile_bytes_as(
     }
 }
 
-/// Adds to what the compiler says what only whoever checks a file wants to know: which programs refuse an EDS for what is found,
-/// and where devices depart from their libraries.
-pub fn remark(sources: &SourceMap, root: FileId, compiled: &mut Compiled) {
-    let file = sources.file(root);
-    if is_eds(file.name(), file.text()) {
-        readers::mark(sources, root, &mut compiled.diagnostics);
-    }
-    if let Some(system) = &compiled.system {
-        compiled.diagnostics.append(departures(system));
-        compiled.diagnostics.sort();
-    }
-}
-
 fn refused(diagnostic: Diagnostic) -> Compiled {
     let mut diagnostics = Diagnostics::new();
     diagnostics.push(diagnostic);
@@ -97,7 +83,7 @@ pub fn whole(path: &Path) -> PathBuf {
 }
 
 /// A path without the steps down that a step up takes back.
-pub(crate) fn plain(path: &Path) -> PathBuf {
+pub fn plain(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for part in path.components() {
         match (part, plain.components().next_back()) {

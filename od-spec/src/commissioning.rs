@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use crate::check::codes as rule_codes;
-use crate::check::texts_fit_eds::problem;
+use crate::check::names::texts_fit_eds::problem;
 use crate::diag::{Diagnostic, codes};
 use crate::model::{
     Dictionary, EdsPolicy, Entry, EntryId, Index, NoSuchValue, SubIndex, System, Value, Write, download,

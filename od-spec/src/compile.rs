@@ -11,19 +11,19 @@ use crate::eds;
 use crate::eds::read::{Read, read};
 use crate::eds::view::{FileFacts, View};
 use crate::files::{self, Loader};
-use crate::gaps;
 use crate::keys;
+use crate::library::shipped::LIBRARIES;
 use crate::model::System;
 use crate::parameters::{is_parameter_file, of_node};
 use crate::parts;
 use crate::plant::is_plant;
 use crate::resolve::{self, Resolved};
-use crate::shipped::LIBRARIES;
 use crate::source::{FileId, SourceFile, SourceMap, Span, Spanned};
 use crate::standard;
 use crate::visible::straight;
 use crate::xdd;
 use crate::yaml;
+use crate::yaml::gaps;
 
 /// What [`compile`] gives.
 #[derive(Debug)]
@@ -72,18 +72,17 @@ pub fn compile_as(
     root: FileId,
     loader: &mut dyn Loader,
 ) -> Compiled {
-    let list = check::RULES.iter().collect::<Vec<_>>();
     let file = sources.file(root);
     if xdd::is_xdd(file.name(), file.text()) {
-        compile_xdd(standard::rules(&list), sources, root, strictness)
+        compile_xdd(standard::rules(&check::RULES), sources, root, strictness)
     } else if eds::is_eds(file.name(), file.text()) {
-        compile_eds(standard::rules(&list), sources, root, strictness)
+        compile_eds(standard::rules(&check::RULES), sources, root, strictness)
     } else if let Some(diagnostic) = no_specification(file, sources.whole(root)) {
         let mut diagnostics = Diagnostics::new();
         diagnostics.push(diagnostic);
         Compiled::refused(diagnostics)
     } else {
-        compile_with(standard::rules(&list), sources, root, loader)
+        compile_with(standard::rules(&check::RULES), sources, root, loader)
     }
 }
 
@@ -114,13 +113,7 @@ fn no_specification(file: &SourceFile, whole: Span) -> Option<Diagnostic> {
 
 /// Everything that there is to say about an EDS or DCF, as serious as the standard takes it.
 pub(crate) fn findings(sources: &SourceMap, file: FileId) -> Diagnostics {
-    compile_eds(
-        standard::rules(&check::RULES.iter().collect::<Vec<_>>()),
-        sources,
-        file,
-        Strictness::Standard,
-    )
-    .diagnostics
+    compile_eds(standard::rules(&check::RULES), sources, file, Strictness::Standard).diagnostics
 }
 
 /// An EDS or DCF goes the way of a specification, but for its reader.

@@ -22,75 +22,57 @@
 //! assert_eq!(lamp.objects.len(), 5); // 1000h, 1001h, 1017h, 1018h, 2000h
 //! ```
 
-pub mod ascii;
 mod ast;
+mod catalogue;
 mod check;
 mod commissioning;
 mod compile;
 mod decode;
-mod departures;
 pub mod diag;
 pub mod eds;
-pub mod encoding;
-mod explain;
-pub mod expr;
 mod files;
 mod fix;
-mod gaps;
-#[cfg(feature = "reference")]
-mod json_schema;
 pub mod keys;
 mod layout;
 mod library;
 mod limits;
 pub mod model;
-pub mod name_pattern;
 pub mod names;
+mod notation;
 mod parameters;
 mod parts;
 pub mod plant;
-#[cfg(feature = "reference")]
-mod reference;
 mod resolve;
-#[cfg(test)]
-mod rule_cases;
-#[cfg(test)]
-mod rule_examples;
-#[cfg(test)]
-mod rule_words;
-pub mod scalar;
-mod shipped;
+mod rules;
 pub mod source;
 mod standard;
-pub mod visible;
+mod text;
 pub mod wording;
 pub mod xdd;
 pub mod yaml;
 
+pub use catalogue::{all_codes, code};
 pub use check::allowed::can_be_allowed;
 pub use check::codes as rule_codes;
-pub use check::start_values_are_allowed::start_of_code;
-pub use check::texts_fit_eds::problem as eds_text_problem;
+pub use check::departures::departures;
+pub use check::names::texts_fit_eds::problem as eds_text_problem;
+pub use check::values::start_values_are_allowed::start_of_code;
 pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues, TextOfNode, bit_rate};
 pub use compile::{Compiled, Strictness, compile, compile_as, is_specification};
 pub use decode::is_device_key;
-pub use departures::departures;
 pub use diag::nearest;
-pub use explain::{all_codes, code, explanation};
 pub use files::{Loader, NoFiles, add_source, read_text};
 pub use fix::{Change, Fixed, fix};
-#[cfg(feature = "reference")]
-pub use json_schema::{json_schema, parameter_schema, plant_schema, plant_schema_of};
 pub use layout::layout;
+pub use library::shipped::{LIBRARIES, features as features_of_text};
 pub use library::{Feature, Library, LibraryObject, library, library_in};
+pub use notation::{expr, name_pattern, scalar};
 pub use parameters::{
     Assigned, Assignment, Layer, Origin, ParameterFile, SettingDecl, SettingNames, assign, assign_layers,
     is_parameter_file, parameter_file, settings, settings_of_map,
 };
 pub use parts::part_of;
-#[cfg(feature = "reference")]
-pub use reference::reference;
-pub use shipped::LIBRARIES;
+pub use text::{ascii, encoding, visible};
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

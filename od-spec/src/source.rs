@@ -177,7 +177,7 @@ impl SourceFile {
     }
 
     /// Number of the line (from 0) that holds a byte offset.
-    pub(crate) fn line_index(&self, offset: u32) -> usize {
+    pub fn line_index(&self, offset: u32) -> usize {
         self.line_starts().partition_point(|start| *start <= offset).saturating_sub(1)
     }
 

@@ -48,7 +48,7 @@ def main() -> int:
 
 
 def built() -> Path:
-    subprocess.run([os.environ.get("CARGO", "cargo"), "build", "--release", "--quiet", "-p", "od-gen"], cwd=ROOT, check=True)
+    subprocess.run([os.environ.get("CARGO", "cargo"), "build", "--release", "--quiet", "-p", "odgen"], cwd=ROOT, check=True)
     return Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "odgen"
 
 

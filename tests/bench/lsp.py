@@ -1,6 +1,6 @@
 """From a keystroke to its diagnostics: `odgen lsp` on a specification, over standard input and output.
 
-    cargo build --release -p od-gen
+    cargo build --release -p odgen
     python3 tests/bench/lsp.py [SPEC] [--keys N] [--odgen PATH]
 
 Types a word into the specification, letter by letter, and waits for what is said about each version; asks for symbols,

@@ -110,7 +110,7 @@ def main() -> int:
 
 
 def built() -> Path:
-    output([os.environ.get("CARGO", "cargo"), "build", "--release", "--quiet", "-p", "od-gen"], ROOT)
+    output([os.environ.get("CARGO", "cargo"), "build", "--release", "--quiet", "-p", "odgen"], ROOT)
     return Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / f"odgen{EXE}"
 
 

@@ -19,7 +19,10 @@ pub static PITCH: LazyLock<String> = LazyLock::new(|| in_one_file("pitch-control
 /// If there is no such specification.
 #[expect(clippy::unwrap_used, reason = "only tests ask, and fail by panicking")]
 pub fn in_one_file(name: &str) -> String {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../od-spec/devices");
+    // The packages with tests are not all at one depth.
+    let above = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    let directory =
+        above.map(|folder| folder.join("od-spec/devices")).find(|folder| folder.is_dir()).unwrap();
     let read = |file: &str| fs::read_to_string(directory.join(file)).unwrap();
     let main = read(&format!("{name}.od.yaml"));
     let (before, rest) = main.split_once("\nparts: [").unwrap();

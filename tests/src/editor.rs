@@ -3,7 +3,7 @@
 use std::thread;
 
 use lsp_server::{Connection, Message, Notification, Request, RequestId};
-use od_gen::lsp::serve;
+use od_lsp::serve;
 use serde_json::{Value, json};
 
 use crate::Failure;

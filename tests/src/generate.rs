@@ -3,16 +3,19 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use od_gen::diff::{Question, Scope, compare, human};
-use od_gen::docs::{self, Templates};
+use docs_gen::{self as docs, Templates};
+use od_c as c;
+use od_diff::{Question, Scope, compare, human};
+use od_formats::{Selection, artifacts, dbc};
+use od_gen::Artifact;
 use od_gen::files::{left_over, remove};
 use od_gen::rust::{self, Provenance};
-use od_gen::{Artifact, Selection, artifacts, c, dbc, st};
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, NoFiles, compile};
+use od_st as st;
 
 use crate::editor::{hover, mistyped};
 use crate::{Failure, compile_with_sources, root};
@@ -52,8 +55,8 @@ fn shipped() -> Result<Vec<GeneratedFile>, Failure> {
 /// As [`all`].
 pub fn texts() -> Result<Vec<GeneratedFile>, Failure> {
     Ok(vec![
-        ("od-spec/schema/od.schema.json".to_owned(), od_spec::json_schema().into_bytes()),
-        ("docs/language.md".to_owned(), od_spec::reference().into_bytes()),
+        ("od-spec/schema/od.schema.json".to_owned(), od_reference::json_schema().into_bytes()),
+        ("docs/language.md".to_owned(), od_reference::reference().into_bytes()),
         ("docs/messages.md".to_owned(), messages().into_bytes()),
         ("README.md".to_owned(), readme()?.into_bytes()),
     ])
@@ -143,7 +146,8 @@ fn messages() -> String {
     );
     for code in od_spec::all_codes() {
         let severity = code.severity.word();
-        let _ = write!(text, "\n## {code}: {}\n\n*{severity}* — {}", code.title, od_spec::explanation(code));
+        let _ =
+            write!(text, "\n## {code}: {}\n\n*{severity}* — {}", code.title, od_reference::explanation(code));
     }
     text
 }
@@ -154,7 +158,7 @@ fn readme() -> Result<String, Failure> {
     let spec = fs::read_to_string(root().join(path))?;
     let (system, sources) = compile_with_sources(path)?;
     let device = system.devices.first().ok_or("the example has no device")?;
-    let eds = String::from_utf8(od_gen::eds::write_eds(&system, device))?.replace("\r\n", "\n");
+    let eds = String::from_utf8(od_formats::eds::write_eds(&system, device))?.replace("\r\n", "\n");
     let sections = ["2000", "2001", "1600sub1", "1800sub1"];
     let excerpt: Vec<&str> = eds
         .split("\n\n")

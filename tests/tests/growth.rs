@@ -3,8 +3,7 @@
 //! counts these.
 
 use allocation_counter::{AllocationInfo, measure};
-use od_gen::{eds, json};
-use od_spec::diag::render::{Format, render};
+use od_formats::{eds, findings, json};
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, NoFiles, compile};
 use od_tests::patterns::{Pattern, RIGHT, WRONG};
@@ -22,7 +21,7 @@ fn work(text: &str) -> AllocationInfo {
                     drop(eds::write_eds(&system, device));
                 }
             }
-            None => drop(render(&diagnostics, &sources, Format::Json, false)),
+            None => drop(findings::json(&diagnostics, &sources)),
         }
     })
 }

@@ -7,9 +7,9 @@ use od_spec::model::{
 
 use super::Columns;
 use super::variants::device_keys;
-use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::entry_anchor;
 use crate::view::{BitBox, BitPicture, BitPictureRow, Cell, Grid, Row};
 
 impl Source<'_> {

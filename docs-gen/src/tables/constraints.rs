@@ -3,8 +3,8 @@
 use od_spec::model::{Constraint, Devices};
 
 use crate::language::Word;
-use crate::series::{NUMBER, title};
 use crate::source::Source;
+use crate::source::series::{NUMBER, title};
 use crate::tables::Columns;
 use crate::view::{Align, Cell, PartKind, Row, Table};
 

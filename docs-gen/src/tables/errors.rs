@@ -4,9 +4,9 @@ use od_spec::model::{AnyError, Devices, Dictionary, ErrorCode, Text};
 
 use super::Columns;
 use super::variants::device_keys;
-use crate::cell::entry_anchor;
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::entry_anchor;
 use crate::view::{Align, Cell, Grid, Row};
 
 /// Where links to an error code lead.
@@ -190,7 +190,7 @@ impl Source<'_> {
         let mut devices = self.devices.iter().copied().chain(&self.system.devices);
         let Some(device) = devices.find(its_device) else { return cell };
         let words = self.word(Word::ChosenBy);
-        let (before, behind) = words.split_once("{n}").unwrap_or((words, ""));
+        let (before, behind) = words.split_once("{1}").unwrap_or((words, ""));
         cell.line().text(before).and(self.named_entry(device, id)).text(behind)
     }
 

@@ -3,10 +3,10 @@
 use od_spec::model::{Axis, AxisReach, Block, Dictionary, EntryId, Flow, NamedBits};
 
 use super::Columns;
-use super::axis_picture::{self, DrawnMark, DrawnSpan};
-use super::flow_graph::DrawnBlock;
-use super::flow_picture;
-use super::picture_label::DrawnLine;
+use crate::diagrams::axis::{self, DrawnMark, DrawnSpan};
+use crate::diagrams::flow;
+use crate::diagrams::flow::graph::DrawnBlock;
+use crate::diagrams::label::DrawnLine;
 use crate::language::Word;
 use crate::source::Source;
 use crate::view::{Cell, Grid, Row};
@@ -47,7 +47,7 @@ impl Source<'_> {
                 from: self.inflows(block),
             })
             .collect();
-        Some(Grid { flow: Some(flow_picture::picture(&blocks)), ..grid })
+        Some(Grid { flow: Some(flow::picture(&blocks)), ..grid })
     }
 
     fn inflows(&self, block: &Block) -> Vec<(usize, String)> {
@@ -103,7 +103,7 @@ impl Source<'_> {
             reach: span.reach,
         });
         let (marks, spans): (Vec<_>, Vec<_>) = (marks.collect(), spans.collect());
-        Some(Grid { axis: Some(axis_picture::picture(&marks, &spans)), ..grid })
+        Some(Grid { axis: Some(axis::picture(&marks, &spans)), ..grid })
     }
 
     /// A device shown that has all of these entries.

@@ -3,8 +3,8 @@
 use od_spec::model::{Dictionary, EntryId, Ratio, Switch, SwitchBack, SwitchPoints, SwitchSide, Unit};
 
 use super::Columns;
-use super::hysteresis_picture::{DrawnSwitch, picture};
 use super::variants::device_keys;
+use crate::diagrams::hysteresis::{DrawnSwitch, picture};
 use crate::language::Word;
 use crate::source::Source;
 use crate::view::{Cell, Grid, Row};

@@ -3,10 +3,10 @@
 use od_spec::model::{BitPattern, Command, Dictionary, Entry, EntryId, PatternBit, StateMachine, TypeKind};
 
 use super::Columns;
-use super::machine_picture::picture;
-use crate::cell::entry_anchor;
+use crate::diagrams::machine::picture;
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::entry_anchor;
 use crate::view::{Align, Cell, Grid, Row};
 
 /// A pattern in groups of four bits, most significant first: `xxxx xxxx x01x 0001`.

@@ -1,22 +1,15 @@
 //! From the contents of a table to its columns and rows.
 
-mod axis_picture;
 pub(crate) mod bits;
 pub(crate) mod constraints;
 pub(crate) mod errors;
-mod flow_graph;
-mod flow_picture;
 mod flows;
 mod hysteresis;
-mod hysteresis_picture;
-mod machine_picture;
 pub(crate) mod machines;
 pub(crate) mod objects;
 pub(crate) mod overview;
 pub(crate) mod pdos;
-mod picture_label;
 pub(crate) mod texts;
-mod timing_picture;
 mod timings;
 pub(crate) mod variants;
 
@@ -25,8 +18,8 @@ use od_spec::model::{
 };
 
 use crate::language::Word;
-use crate::outline::{figure_anchor, kind_of, table_anchor};
 use crate::source::Source;
+use crate::source::outline::{figure_anchor, kind_of, table_anchor};
 use crate::view::{Align, Cell, Column, FigureView, Grid, Row, Table};
 
 /// Columns, each with what it holds, its title and its alignment.

@@ -6,9 +6,9 @@ use od_spec::model::{
 
 use super::Columns;
 use super::variants::device_keys;
-use crate::cell::{entry_anchor, object_anchor};
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::{entry_anchor, object_anchor};
 use crate::view::{Cell, Grid, ObjectHead, Row};
 
 impl Source<'_> {
@@ -154,7 +154,7 @@ impl Source<'_> {
             (entry.named_type.as_ref().map(|named| &named.kind), &entry.default)
             && let Some(bits) = self.set_bits(fields, *raw)
         {
-            cell = cell.line().text(self.word(Word::SetByDefault).replace("{n}", &bits));
+            cell = cell.line().text(self.sentence(Word::SetByDefault, &bits));
         }
         for special in &entry.special {
             cell = cell.line().text(self.wording.special(entry, special));
@@ -170,7 +170,7 @@ impl Source<'_> {
             cell = cell.text(format!("; {}.", self.wording.conversion(alias)));
         }
         if let Some(capacity) = entry.capacity {
-            cell = cell.line().text(self.word(Word::Capacity).replace("{n}", &capacity.to_string()));
+            cell = cell.line().text(self.sentence(Word::Capacity, &capacity.to_string()));
         }
         if let Some(condition) = &entry.writable_when {
             cell = cell.line().text(format!("{}: ", self.word(Word::WritableWhen)));

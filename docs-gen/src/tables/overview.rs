@@ -6,9 +6,9 @@ use od_spec::model::{Entry, Index, Object, SystemSource};
 
 use super::Columns;
 use super::variants::device_keys;
-use crate::cell::object_anchor;
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::object_anchor;
 use crate::view::{Cell, Grid, Row};
 
 /// What differs among the entries of an object, each once and in order; the count at sub-index 0 does not matter.

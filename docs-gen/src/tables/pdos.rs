@@ -3,9 +3,9 @@
 use od_spec::model::{DataType, Dictionary, Direction, Index, Pdo, PdoTarget, Ratio};
 
 use super::Columns;
-use crate::cell::{entry_anchor, object_anchor};
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::{entry_anchor, object_anchor};
 use crate::view::{Cell, Grid, PdoField, PdoView, Row, Table};
 
 /// `rpdo-1`

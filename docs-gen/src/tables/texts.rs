@@ -5,10 +5,10 @@ use od_spec::model::{Constraint, Devices, Dictionary, Document, EntryId, Issue, 
 
 use super::Columns;
 use super::variants::device_keys;
-use crate::cell::entry_anchor;
-use crate::conditions::relation;
 use crate::language::Word;
 use crate::source::Source;
+use crate::source::conditions::relation;
+use crate::view::cell::entry_anchor;
 use crate::view::{Align, Cell, Grid, Ladder, Row, Rung};
 
 impl Source<'_> {

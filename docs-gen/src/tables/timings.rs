@@ -5,10 +5,10 @@ use od_spec::model::{
 };
 
 use super::Columns;
-use super::timing_picture::{DrawnLevel, DrawnSignal, picture};
-use crate::cell::entry_anchor;
+use crate::diagrams::timing::{DrawnLevel, DrawnSignal, picture};
 use crate::language::Word;
 use crate::source::Source;
+use crate::view::cell::entry_anchor;
 use crate::view::{Align, Cell, Grid, Row, Target};
 
 impl Source<'_> {

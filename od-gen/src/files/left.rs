@@ -3,11 +3,10 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Read as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::disk::{Disk as _, Real};
-use super::lock::Lock;
-use super::{WriteError, mark, of_path};
+use super::disk::{Disk as _, Durability, Real, put};
+use super::{Reason, WriteError, mark, of_path};
 use crate::artifact::{Artifact, OutputFile};
 
 /// The files below a directory that generators made and `set` does not have, by their paths. They are looked for among those of the
@@ -44,7 +43,7 @@ fn look<F: OutputFile>(
     let folders: BTreeSet<&str> = kinds.iter().map(|(folder, _)| *folder).collect();
     let mut found = Vec::new();
     for folder in folders {
-        list(directory, folder, &mut found).map_err(|error| WriteError::io(directory.join(folder), error))?;
+        list(directory, folder, &mut found).map_err(|error| left_error(directory.join(folder), error))?;
     }
     let made: BTreeSet<&str> = set.iter().map(OutputFile::path).collect();
     let listed = mark::listed(directory);
@@ -54,7 +53,7 @@ fn look<F: OutputFile>(
         if made.contains(path.as_str()) || !kinds.contains(&kind(&path)) {
             continue;
         }
-        if listed.contains(&path) || marked(&file).map_err(|error| WriteError::io(file, error))? {
+        if listed.contains(&path) || marked(&file).map_err(|error| left_error(file, error))? {
             left.push(path);
         }
     }
@@ -68,11 +67,9 @@ fn look<F: OutputFile>(
 /// The first that cannot be removed; those before it are gone.
 pub fn remove(directory: &Path, left: &[String]) -> Result<(), WriteError> {
     let directory = of_path(directory);
-    let _lock = Lock::take(&BTreeSet::from([directory.to_owned()]))
-        .map_err(|(path, error)| WriteError::io(path, error))?;
     for path in left {
         let file = directory.join(path);
-        Real.remove(&file).map_err(|error| WriteError::io(file, error))?;
+        Real.remove(&file).map_err(|error| left_error(file, error))?;
     }
     // Whoever writes a file of such a name later is its owner.
     let (old, file) = (mark::listed(directory), directory.join(mark::LIST));
@@ -80,10 +77,14 @@ pub fn remove(directory: &Path, left: &[String]) -> Result<(), WriteError> {
         return Ok(());
     }
     let changed = match mark::list::<Artifact>(directory, &[], &old) {
-        Some(list) => Real.write(&file, &[&list.bytes], None),
+        Some(list) => put(&file, &[&list.bytes], None, Durability::Later, &Real),
         None => Real.remove(&file),
     };
-    changed.map_err(|error| WriteError::io(file, error))
+    changed.map_err(|error| left_error(file, error))
+}
+
+fn left_error(path: PathBuf, error: io::Error) -> WriteError {
+    WriteError::new(path, Reason::Left(error))
 }
 
 /// The folder at the top and the ending of a path.

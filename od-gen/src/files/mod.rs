@@ -1,32 +1,24 @@
-//! Writing files: all of a set or none, nothing that would not change, and nothing that is not ours.
+//! Writing files: each whole or not at all, only what differs, and only over what is ours.
 //!
-//! A set is written under other names first; a journal beside it says what is going on. When everything is on the disk, the files get
-//! their names, one after the other. A process that is killed before that has changed nothing; one that is killed
-//! in between leaves a journal, with which the next one completes the set before it does anything else ([`recover`], [`write_set`]). Who reads in
-//! between sees each file whole, old or new, and knows by `.odgen-journal` that they need not belong together.
+//! A set is checked before its first byte is written. Then each file whose contents differ gets
+//! them under a temporary name in its folder, and is renamed. A run that is killed leaves every
+//! file whole, old or new; the next run finds what still differs, and completes the set.
 
+mod change;
 mod disk;
-mod exchange;
-mod journal;
 mod left;
-mod lock;
 mod mark;
 mod names;
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub use self::disk::Watch;
-pub use self::exchange::Recovered;
 pub use self::left::{left_over, left_over_of_folders, remove};
 pub use self::names::{clash, name_problem};
 
-use self::disk::{Disk, Real, Watched};
-use self::exchange::{Change, exchange};
-use self::journal::target;
-use self::lock::Lock;
+use self::change::{Change, target};
+use self::disk::{Disk, Durability, Real, sweep};
 use crate::artifact::{Artifact, OutputFile};
 
 /// What happened to one file.
@@ -49,7 +41,7 @@ pub enum Existing {
     Any,
 }
 
-/// Why files could not be written; no file of the set was changed.
+/// Why not every file could be written.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct WriteError {
@@ -57,14 +49,18 @@ pub struct WriteError {
     pub path: PathBuf,
     /// Why.
     pub reason: Reason,
+    /// The files that were replaced before it, each of them whole. All others are as they were.
+    pub written: Vec<PathBuf>,
 }
 
 /// Why a file could not be written.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The system says so.
+    /// The system reports an error.
     Io(io::Error),
+    /// It is left from an earlier run, and the system cannot read or remove it.
+    Left(io::Error),
     /// It is there with other contents, and so are these.
     Exists(Vec<PathBuf>),
     /// It is there with other contents, and no generator made it, nor these.
@@ -77,47 +73,68 @@ pub enum Reason {
 
 impl std::fmt::Display for WriteError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        /// So many files are named.
-        const NAMED: usize = 5;
-        write!(f, "cannot write {}", self.path.display())?;
-        let others = |f: &mut std::fmt::Formatter<'_>, others: &[PathBuf]| {
-            others.iter().take(NAMED - 1).try_for_each(|path| write!(f, ", {}", path.display()))?;
-            match others.len().saturating_sub(NAMED - 1) {
-                0 => Ok(()),
-                more => write!(f, " and {more} more"),
-            }
-        };
+        let path = self.path.display();
+        let all = |more: &[PathBuf]| named(std::iter::once(&self.path).chain(more));
         match &self.reason {
-            Reason::Io(error) => write!(f, ": {error}"),
+            Reason::Io(error) if self.written.is_empty() => write!(f, "cannot write {path}: {error}"),
+            Reason::Io(error) => {
+                write!(f, "cannot write {path}: {error}; written before it: {}", named(&self.written))
+            }
+            Reason::Left(error) => write!(f, "cannot read or remove {path}: {error}"),
             Reason::Exists(more) => {
-                others(f, more)?;
-                f.write_str(if more.is_empty() {
-                    ": it is there already"
-                } else {
-                    ": they are there already"
-                })
+                let they_are = if more.is_empty() { "it is" } else { "they are" };
+                write!(f, "cannot write {}: {they_are} there already", all(more))
             }
             Reason::NotGenerated(more) => {
-                others(f, more)?;
-                f.write_str(if more.is_empty() {
-                    ": it is there, and nothing in it says that odgen made it"
+                let why = if more.is_empty() {
+                    "it is there, and nothing in it says that odgen made it"
                 } else {
-                    ": they are there, and nothing in them says that odgen made them"
-                })
+                    "they are there, and nothing in them says that odgen made them"
+                };
+                write!(f, "cannot write {}: {why}", all(more))
             }
-            Reason::Name(problem) => write!(f, ": {problem}"),
+            Reason::Name(problem) => write!(f, "cannot write {path}: {problem}"),
             Reason::Clash(other) => {
-                write!(f, " beside {}: some systems take both names for one", other.display())
+                let other = other.display();
+                write!(f, "cannot write {path} beside {other}: some systems take both names for one")
             }
         }
     }
 }
 
+/// The first files by name, and how many more there are.
+fn named<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> String {
+    /// So many files are named.
+    const NAMED: usize = 5;
+    let mut names: Vec<String> = files.into_iter().map(|path| path.display().to_string()).collect();
+    let more = names.len().saturating_sub(NAMED);
+    names.truncate(NAMED);
+    let names = names.join(", ");
+    if more == 0 { names } else { format!("{names} and {more} more") }
+}
+
 impl std::error::Error for WriteError {}
 
 impl WriteError {
+    fn new(path: impl Into<PathBuf>, reason: Reason) -> Self {
+        Self { path: path.into(), reason, written: Vec::new() }
+    }
+
     fn io(path: impl Into<PathBuf>, error: io::Error) -> Self {
-        Self { path: path.into(), reason: Reason::Io(error) }
+        Self::new(path, Reason::Io(error))
+    }
+
+    /// What to do about an error of the system, and what its files are like until then.
+    pub const fn advice(&self) -> &'static str {
+        match self.reason {
+            Reason::Left(_) => "all files of this run are written; check the permissions, and run it again",
+            _ if self.written.is_empty() => {
+                "nothing was changed; check the directory, its permissions and the free space"
+            }
+            _ => {
+                "every file is whole, old or new; check the permissions and the free space, and run it again: it writes the rest"
+            }
+        }
     }
 }
 
@@ -129,21 +146,22 @@ pub fn write_all(directory: &Path, artifacts: &[Artifact]) -> Result<Vec<Outcome
     write_set(directory, artifacts, Existing::Generated)
 }
 
-/// Writes the files below `directory`, all or none. Waits while another process writes there, and completes what a killed one left. Files
-/// keep their mode and their owner. Directories that were made for the files stay, whatever happens.
+/// Writes the files below `directory`. Files keep their mode and their owner.
 ///
 /// # Errors
-/// The first file that cannot be written: it is one that must not be replaced, its name is none on every system or leads out of the directory,
-/// its directory cannot be made, a directory is in its way, the disk is full or write-protected.
+/// The first file that cannot be written. Before anything is changed: it must not be replaced, its
+/// name is not one on every system or leads out of the directory, or something is in its way. After
+/// others were written: the disk is full or write-protected.
 pub fn write_set<F: OutputFile>(
     directory: &Path,
     artifacts: &[F],
     existing: Existing,
 ) -> Result<Vec<Outcome>, WriteError> {
-    write_with(directory, artifacts, existing, &Real)
+    write_set_watched(directory, artifacts, existing, &mut |_, _| {})
 }
 
-/// [`write_set`], for a set that takes a while: `watch` is told how many files are written.
+/// [`write_set`], for a set that takes a while: `watch` gets how many files are written, of how
+/// many.
 ///
 /// # Errors
 /// As there.
@@ -151,86 +169,57 @@ pub fn write_set_watched<F: OutputFile>(
     directory: &Path,
     artifacts: &[F],
     existing: Existing,
-    watch: &Watch<'_>,
+    watch: Watch<'_>,
 ) -> Result<Vec<Outcome>, WriteError> {
-    write_with(directory, artifacts, existing, &Watched { watch })
+    write_with(directory, artifacts, existing, Durability::Later, &Real, watch)
 }
 
-/// Replaces files by name, wherever they are. On an error all are as they were; a process that is killed leaves each file whole, and
-/// what else it leaves is removed by the next that writes there.
+/// [`write_set`], for what nothing can make again: each file is on the disk before it gets its name.
 ///
 /// # Errors
-/// The first file that cannot be written.
+/// As there.
+pub fn write_durable<F: OutputFile>(
+    directory: &Path,
+    artifacts: &[F],
+    existing: Existing,
+) -> Result<Vec<Outcome>, WriteError> {
+    write_with(directory, artifacts, existing, Durability::Now, &Real, &mut |_, _| {})
+}
+
+/// Replaces files by name, wherever they are; each is on the disk before it gets its name.
+///
+/// # Errors
+/// As those of [`write_set`].
 pub fn replace(files: &[(PathBuf, Vec<u8>)]) -> Result<(), WriteError> {
     replace_with(files, &Real)
 }
 
-fn replace_with(files: &[(PathBuf, Vec<u8>)], disk: &impl Disk) -> Result<(), WriteError> {
-    let mut directories = BTreeSet::new();
-    let mut targets = Vec::new();
-    for (path, bytes) in files {
-        let file = target(Path::new(""), path).map_err(|error| WriteError::io(path, error))?;
-        directories.insert(parent(&file));
-        targets.push((file, bytes));
-    }
-    let _lock = Lock::take(&directories).map_err(|(path, error)| WriteError::io(path, error))?;
-    for directory in &directories {
-        exchange::sweep(directory, disk)?;
-    }
-    let mut changes = Vec::new();
-    for (file, bytes) in targets {
-        changes.extend(
-            Change::of(String::new(), file.clone(), vec![bytes])
-                .map_err(|error| WriteError::io(file, error))?,
-        );
-    }
-    exchange(None, &changes, disk)
-}
+/// Gets how many files are written, of how many.
+pub type Watch<'a> = &'a mut dyn FnMut(usize, usize);
 
-/// Completes or undoes what a process that was killed began in a directory, if there is such a thing.
-///
-/// # Errors
-/// A file cannot be written. The journal stays, for another try.
-pub fn recover(directory: &Path) -> Result<Option<Recovered>, WriteError> {
-    let directory = of_path(directory);
-    let failed = |(path, error)| WriteError::io(path, error);
-    if !journal::is_there(directory) {
-        return Ok(None);
+fn replace_with(files: &[(PathBuf, Vec<u8>)], disk: &impl Disk) -> Result<(), WriteError> {
+    let mut changes = Vec::new();
+    for (path, bytes) in files {
+        changes.extend(Change::of(path, vec![bytes])?);
     }
-    // Of a process that lives, the lock tells.
-    let _lock = Lock::take(&BTreeSet::from([directory.to_owned()])).map_err(failed)?;
-    exchange::recover(directory, &Real)
+    make(files.iter().map(|(path, _)| path.clone()), &changes, Durability::Now, disk, &mut |_, _| {})
 }
 
 fn write_with<F: OutputFile>(
     directory: &Path,
     artifacts: &[F],
     existing: Existing,
+    durability: Durability,
     disk: &impl Disk,
+    watch: Watch<'_>,
 ) -> Result<Vec<Outcome>, WriteError> {
     let directory = of_path(directory);
     check_names(directory, artifacts)?;
-    let mut directories = BTreeSet::from([directory.to_owned()]);
-    let mut targets = Vec::new();
-    for artifact in artifacts {
-        let path = directory.join(artifact.path());
-        let failed = |error| WriteError::io(&path, error);
-        fs::create_dir_all(parent(&path)).map_err(failed)?;
-        let file = target(directory, Path::new(artifact.path())).map_err(failed)?;
-        directories.extend([parent(&path), parent(&file)]);
-        targets.push(file);
-    }
-    let _lock = Lock::take(&lockable(&directories, directory))
-        .map_err(|(path, error)| WriteError::io(path, error))?;
-    for directory in &directories {
-        exchange::sweep(directory, disk)?;
-        exchange::recover(directory, disk)?;
-    }
     let listed = mark::listed(directory);
     let (mut changes, mut outcomes, mut refused) = (Vec::new(), Vec::new(), Vec::new());
-    for (artifact, file) in artifacts.iter().zip(targets) {
-        let failed = |error| WriteError::io(directory.join(artifact.path()), error);
-        let change = Change::of(artifact.path().to_owned(), file, artifact.pieces()).map_err(failed)?;
+    for artifact in artifacts {
+        let path = directory.join(artifact.path());
+        let change = Change::of(&path, artifact.pieces())?;
         outcomes.push(if change.is_some() { Outcome::Changed } else { Outcome::Unchanged });
         let Some(change) = change else { continue };
         let may = match existing {
@@ -241,7 +230,7 @@ fn write_with<F: OutputFile>(
             Existing::Any => true,
         };
         if !may {
-            refused.push(directory.join(artifact.path()));
+            refused.push(path);
         }
         changes.push(change);
     }
@@ -249,42 +238,58 @@ fn write_with<F: OutputFile>(
         let path = refused.remove(0);
         let reason =
             if existing == Existing::None { Reason::Exists(refused) } else { Reason::NotGenerated(refused) };
-        return Err(WriteError { path, reason });
+        return Err(WriteError::new(path, reason));
     }
     let list = if existing == Existing::None { None } else { mark::list(directory, artifacts, &listed) };
     if let Some(list) = &list {
-        let file = directory.join(&list.path);
-        let change = Change::of(list.path.clone(), file.clone(), vec![list.bytes.as_slice()]);
-        changes.extend(change.map_err(|error| WriteError::io(file, error))?);
+        // First of all: a run that is killed after it leaves no file that the next takes for another's.
+        changes.splice(..0, Change::of(&directory.join(&list.path), vec![list.bytes.as_slice()])?);
     }
-    exchange(Some(directory), &changes, disk)?;
+    let paths = artifacts.iter().map(|artifact| directory.join(artifact.path()));
+    make(paths, &changes, durability, disk, watch)?;
     Ok(outcomes)
 }
 
-/// The directories that are locked: each, or where there are more than a process may have open files, that of the set, and those that
-/// links lead to outside of it. Whoever writes anywhere below waits for it, too: see [`Lock::take`].
-fn lockable(directories: &BTreeSet<PathBuf>, of_set: &Path) -> BTreeSet<PathBuf> {
-    const MOST: usize = 200;
-    if directories.len() <= MOST {
-        return directories.clone();
+/// Makes the changes, in folders that are cleared of what killed runs left.
+fn make(
+    paths: impl Iterator<Item = PathBuf>,
+    changes: &[Change<'_>],
+    durability: Durability,
+    disk: &impl Disk,
+    watch: Watch<'_>,
+) -> Result<(), WriteError> {
+    let folders: BTreeSet<PathBuf> =
+        paths.map(|path| parent(&target(&path).unwrap_or(path)).to_owned()).collect();
+    for folder in &folders {
+        sweep(folder, disk);
     }
-    let top = fs::canonicalize(of_set).unwrap_or_else(|_| of_set.to_owned());
-    let is_outside =
-        |directory: &&PathBuf| !fs::canonicalize(directory).is_ok_and(|path| path.starts_with(&top));
-    directories.iter().filter(is_outside).cloned().chain([of_set.to_owned()]).collect()
+    for (at, change) in changes.iter().enumerate() {
+        change.make(durability, disk).map_err(|error| WriteError {
+            written: changes.iter().take(at).map(|change| change.path.clone()).collect(),
+            ..WriteError::io(&change.path, error)
+        })?;
+        watch(at + 1, changes.len());
+    }
+    Ok(())
 }
 
 /// No file has a name that leads elsewhere, or that some system does not take or takes for another's.
 fn check_names<F: OutputFile>(directory: &Path, artifacts: &[F]) -> Result<(), WriteError> {
     for artifact in artifacts {
         if let Some(problem) = name_problem(artifact.path()) {
-            return Err(WriteError { path: directory.join(artifact.path()), reason: Reason::Name(problem) });
+            return Err(WriteError::new(directory.join(artifact.path()), Reason::Name(problem)));
         }
     }
-    match clash(artifacts.iter().map(OutputFile::path)) {
-        Some((first, second)) => {
-            Err(WriteError { path: directory.join(second), reason: Reason::Clash(directory.join(first)) })
-        }
+    if let Some((first, second)) = clash(artifacts.iter().map(OutputFile::path)) {
+        return Err(WriteError::new(directory.join(second), Reason::Clash(directory.join(first))));
+    }
+    let folders: BTreeSet<&Path> =
+        artifacts.iter().flat_map(|file| Path::new(file.path()).ancestors().skip(1)).collect();
+    match artifacts.iter().find(|file| folders.contains(Path::new(file.path()))) {
+        Some(file) => Err(WriteError::io(
+            directory.join(file.path()),
+            io::Error::new(io::ErrorKind::IsADirectory, "another file needs a directory of this name"),
+        )),
         None => Ok(()),
     }
 }
@@ -294,8 +299,8 @@ fn of_path(directory: &Path) -> &Path {
     if directory.as_os_str().is_empty() { Path::new(".") } else { directory }
 }
 
-fn parent(file: &Path) -> PathBuf {
-    of_path(file.parent().unwrap_or(Path::new(""))).to_owned()
+fn parent(file: &Path) -> &Path {
+    of_path(file.parent().unwrap_or(Path::new("")))
 }
 
 #[cfg(test)]

@@ -8,8 +8,10 @@ use od_spec::model::{Dictionary, EntryId, Ratio};
 
 /// A condition: of one alternative, all comparisons hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Condition {
+pub struct Condition {
+    /// The condition as the specification has it.
     pub text: String,
+    /// It holds if all comparisons of one of these hold.
     pub alternatives: Vec<Vec<Compare>>,
     /// Whether 64 bits are enough.
     pub narrow: bool,
@@ -17,9 +19,12 @@ pub(crate) struct Condition {
 
 /// `left op right`, both multiplied out; a side whose divisor is 0 counts as met.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Compare {
+pub struct Compare {
+    /// The left side.
     pub left: Sum,
+    /// How the sides are compared.
     pub op: CompareOp,
+    /// The right side.
     pub right: Sum,
     /// Divisors that must not be 0.
     pub divisors: Vec<Sum>,
@@ -27,10 +32,14 @@ pub(crate) struct Compare {
 
 /// An integer expression.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Sum {
+pub enum Sum {
+    /// A number.
     Number(i128),
+    /// The raw value of an entry.
     Entry(EntryId),
+    /// A bit of an entry.
     Bit(EntryId, u8),
+    /// Two expressions and what is done with them.
     Binary(Box<Sum>, ArithmeticOp, Box<Sum>),
 }
 

@@ -17,7 +17,7 @@ const PLACES: usize = 4096;
 
 /// The indices of a dictionary.
 #[derive(Debug, Default)]
-pub(crate) struct Directory {
+pub struct Directory {
     /// Blocks where they are looked for; `None` is a free place.
     pub blocks: Vec<Option<Block>>,
     /// For each bucket of blocks, what gives them places that no other block has.
@@ -28,7 +28,8 @@ pub(crate) struct Directory {
 
 /// The indices from 32 × `number` on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Block {
+pub struct Block {
+    /// Its number.
     pub number: u16,
     /// Objects below the first.
     pub objects: usize,
@@ -52,7 +53,7 @@ fn scaled(hash: u32, length: usize) -> usize {
 
 impl Directory {
     /// That of objects, by ascending index.
-    pub(crate) fn of(indices: &[u16]) -> Self {
+    pub fn of(indices: &[u16]) -> Self {
         let mut blocks: Vec<Block> = Vec::new();
         for (objects, index) in indices.iter().enumerate() {
             let (number, bit) = (index / SIZE, 1 << (index % SIZE));

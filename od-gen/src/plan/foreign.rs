@@ -16,11 +16,7 @@ use super::Language;
 const LEAST_CAPACITY: u16 = 32;
 
 /// The device as code can have it: of a specification as it is; of an EDS with names that differ and with capacities.
-pub(crate) fn decided<'a>(
-    system: &System,
-    device: &'a Dictionary,
-    language: &dyn Language,
-) -> Cow<'a, Dictionary> {
+pub fn decided<'a>(system: &System, device: &'a Dictionary, language: &dyn Language) -> Cow<'a, Dictionary> {
     match system.source {
         SystemSource::Specification => Cow::Borrowed(device),
         SystemSource::Eds => Cow::Owned(decided_anyhow(device, language)),
@@ -29,7 +25,7 @@ pub(crate) fn decided<'a>(
 
 /// The device with names that differ and with capacities, whatever it was read from: where nobody will see a name, nobody is
 /// asked for one.
-pub(crate) fn decided_anyhow(device: &Dictionary, language: &dyn Language) -> Dictionary {
+pub fn decided_anyhow(device: &Dictionary, language: &dyn Language) -> Dictionary {
     let mut device = device.clone();
     names::tell_apart(&mut device, language);
     units::tell_apart(&mut device, language);
@@ -69,7 +65,7 @@ mod tests {
     use od_spec::{NoFiles, compile};
 
     use crate::plan::{Place, Shape, plan};
-    use crate::rust::language::Rust;
+    use crate::rust::Rust;
 
     use super::*;
 

@@ -20,7 +20,7 @@ struct Member<'p> {
 
 /// The groups of a plan that more than one object has.
 #[derive(Default)]
-pub(crate) struct Groups {
+pub struct Groups {
     /// Positions of all objects that have a group, by the position of the first of them.
     alike: BTreeMap<usize, Vec<usize>>,
     /// The first, by the position of each.
@@ -29,12 +29,12 @@ pub(crate) struct Groups {
 
 impl Groups {
     /// The objects with one group, if `position` is the first of them.
-    pub(crate) fn alike(&self, position: usize) -> Option<&[usize]> {
+    pub fn alike(&self, position: usize) -> Option<&[usize]> {
         self.alike.get(&position).map(Vec::as_slice)
     }
 
     /// The first object with the group of another one, or of the same; `None` where an object has a group for itself.
-    pub(crate) fn first(&self, position: usize) -> Option<usize> {
+    pub fn first(&self, position: usize) -> Option<usize> {
         self.first.get(&position).copied()
     }
 }
@@ -42,7 +42,7 @@ impl Groups {
 impl Plan<'_> {
     /// The groups that objects share: with the same members, which mean the same. The places of the values differ, and facts such
     /// as limits and defaults may.
-    pub(crate) fn groups(&self) -> Groups {
+    pub fn groups(&self) -> Groups {
         let mut alike: BTreeMap<Vec<Member<'_>>, Vec<usize>> = BTreeMap::new();
         for (position, object) in self.objects.iter().enumerate() {
             if let Some(members) = self.group_members(object) {
@@ -66,14 +66,14 @@ impl Plan<'_> {
     }
 
     /// The entries of an object.
-    pub(crate) fn entries_of(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
+    pub fn entries_of(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
         let first = usize::from(object.first_row);
         let rows = first..first.saturating_add(object.object.entries.len()).min(self.entries.len());
         self.entries.get(rows).unwrap_or_default().iter()
     }
 
     /// Whether an entry has values of the specification's own: no counts, no PDO parameters.
-    pub(crate) fn is_stated(&self, entry: &PlannedEntry<'_>) -> bool {
+    pub fn is_stated(&self, entry: &PlannedEntry<'_>) -> bool {
         self.objects.get(entry.object).map(|planned| planned.object).is_some_and(|object| {
             let is_count = object.is_structured() && entry.id.sub == SubIndex(0);
             !object.role().is_pdo_parameter() && !is_count
@@ -81,13 +81,13 @@ impl Plan<'_> {
     }
 
     /// The entries of a group that have accessors.
-    pub(crate) fn accessible(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
+    pub fn accessible(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
         self.entries_of(object).filter(|entry| is_accessible(entry))
     }
 }
 
 /// Whether an entry of a group has an accessor: a number of entries that never changes is a constant of the shape, not a value.
-pub(crate) const fn is_accessible(entry: &PlannedEntry<'_>) -> bool {
+pub const fn is_accessible(entry: &PlannedEntry<'_>) -> bool {
     entry.id.sub.0 != 0 || !matches!(entry.place, Place::Constant(_))
 }
 

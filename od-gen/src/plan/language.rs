@@ -3,7 +3,7 @@
 use super::names::Words;
 
 /// A language that plans are printed in.
-pub(crate) trait Language {
+pub trait Language {
     /// The identifier that words become, which is no keyword; empty where there are no words.
     fn identifier(&self, role: Role, words: &Words) -> String;
 
@@ -19,7 +19,7 @@ pub(crate) trait Language {
 
 /// What an identifier names. A language may spell each in its own way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Role {
+pub enum Role {
     /// A type: a dictionary, a group of accessors, a unit, an enum, a bit field, a PDO.
     Type,
     /// One of a type's alternatives: an entry, a state, a command, a special value.
@@ -34,7 +34,7 @@ pub(crate) enum Role {
 
 /// What is printed beside an identifier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Companion {
+pub enum Companion {
     /// Beside the accessor of an entry: what writes it.
     Setter,
     /// Beside the accessor of a group: the group, to be changed.
@@ -59,7 +59,7 @@ impl Companion {
 
 /// A scope: identifiers that must differ from each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum ScopeKind {
+pub enum ScopeKind {
     /// Types beside the dictionary's.
     Dictionary,
     /// Accessors of the dictionary: of entries and of groups.

@@ -12,7 +12,7 @@ const NO_NODE: u8 = 0;
 
 /// Where the value of an entry lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Place {
+pub enum Place {
     /// Offset in the image.
     Image(usize),
     /// Offset in the constants.
@@ -25,7 +25,8 @@ pub(crate) enum Place {
 
 /// Where the value of an entry lies, and how large it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Placed {
+pub struct Placed {
+    /// Where it is.
     pub place: Place,
     /// Bytes; of a string its capacity.
     pub size: usize,
@@ -33,16 +34,20 @@ pub(crate) struct Placed {
 
 /// A part of the image that is stored together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Region {
+pub struct Region {
+    /// The group.
     pub storage: Storage,
+    /// Its first byte.
     pub start: usize,
+    /// The byte after its last one.
     pub end: usize,
+    /// A checksum of what is stored where, to recognize values of another layout.
     pub layout: u32,
 }
 
 /// The values of a dictionary in memory.
 #[derive(Debug, Default)]
-pub(crate) struct Layout {
+pub struct Layout {
     /// Place of every entry.
     pub places: BTreeMap<EntryId, Placed>,
     /// The image after a factory reset of node 0.
@@ -77,7 +82,7 @@ struct Variable<'a> {
 
 /// Lays out a dictionary: stored groups first, each in one piece, and in each group the widest values first, so that every
 /// value is aligned without gaps. Elements of an array stay together.
-pub(crate) fn lay_out(device: &Dictionary, diagnostics: &mut Diagnostics) -> Layout {
+pub fn lay_out(device: &Dictionary, diagnostics: &mut Diagnostics) -> Layout {
     let mut layout = Layout { align: 4, ..Layout::default() };
     let mut variables = Vec::new();
     for (id, object, entry) in device.entries() {
@@ -153,7 +158,7 @@ static NOT_VALID: Value = Value::Integer(1 << 31);
 
 /// The value after a factory reset, where there is one. A PDO for whose COB-ID nobody states a value does not exist: 0 would be the
 /// identifier that stops nodes.
-pub(crate) fn factory(id: EntryId, entry: &Entry) -> Option<&Value> {
+pub fn factory(id: EntryId, entry: &Entry) -> Option<&Value> {
     let is_cob_id = Role::of(id.index) == Role::PdoCommunication && id.sub == SubIndex(1);
     entry.default.as_ref().or_else(|| is_cob_id.then_some(&NOT_VALID))
 }

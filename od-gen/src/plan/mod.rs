@@ -26,50 +26,61 @@ use od_spec::model::{
 use od_spec::source::Span;
 use od_spec::start_of_code;
 
-pub(crate) use self::condition::{Compare, Condition, Sum};
-pub(crate) use self::directory::{Block, Directory};
-pub(crate) use self::foreign::decided;
-#[cfg(feature = "runtime")]
-pub(crate) use self::foreign::decided_anyhow;
-pub(crate) use self::groups::Groups;
-#[cfg(feature = "c")]
-pub(crate) use self::groups::is_accessible;
-pub(crate) use self::language::{Companion, Language, Role, ScopeKind};
-#[cfg(feature = "runtime")]
-pub(crate) use self::layout::Region;
-#[cfg(feature = "c")]
-pub(crate) use self::layout::factory;
-pub(crate) use self::layout::{Layout, Place, lay_out};
+pub use self::condition::{Compare, Condition, Sum};
+pub use self::directory::{Block, Directory};
+pub use self::foreign::decided;
+pub use self::foreign::decided_anyhow;
+pub use self::groups::Groups;
+pub use self::groups::is_accessible;
+pub use self::language::{Companion, Language, Role, ScopeKind};
+pub use self::layout::Region;
+pub use self::layout::factory;
+pub use self::layout::{Layout, Place, lay_out};
 use self::names::Scope;
-pub(crate) use self::names::Words;
-pub(crate) use self::pool::Pool;
-pub(crate) use self::runs::PlannedRun;
+pub use self::names::Words;
+pub use self::pool::Pool;
+pub use self::runs::PlannedRun;
 
 /// "None" in the table's 16-bit references.
-pub(crate) const NONE: u16 = u16::MAX;
+pub const NONE: u16 = u16::MAX;
 
 /// The code of one device.
-pub(crate) struct Plan<'a> {
+pub struct Plan<'a> {
+    /// All that the specification describes.
     pub system: &'a System,
+    /// The device.
     pub device: &'a Dictionary,
     /// Name of the dictionary's type.
     pub name: String,
+    /// Where values are in memory.
     pub layout: Layout,
+    /// By ascending index.
     pub objects: Vec<PlannedObject<'a>>,
+    /// Objects that one accessor reaches by their number.
     pub runs: Vec<PlannedRun>,
     /// By row.
     pub entries: Vec<PlannedEntry<'a>>,
+    /// What entries have in common.
     pub attributes: Pool<Attributes>,
+    /// Lowest and highest raw values.
     pub limits: Pool<(i64, i64)>,
+    /// Lists of permitted raw values.
     pub values: Pool<Vec<i64>>,
+    /// Views of other entries.
     pub aliases: Vec<PlannedAlias>,
+    /// Physical units of the values.
     pub units: Vec<PlannedUnit<'a>>,
+    /// Enums and bit fields.
     pub types: Vec<PlannedType<'a>>,
+    /// Sets of special values.
     pub specials: Vec<PlannedSpecial>,
+    /// PDOs with their default mapping.
     pub pdos: Vec<PlannedPdo<'a>>,
     /// By the number in the attributes.
     pub conditions: Vec<Condition>,
+    /// Conditions between entries.
     pub constraints: Vec<PlannedConstraint<'a>>,
+    /// State machines.
     pub machines: Vec<PlannedMachine<'a>>,
     /// Priorities of errors: name, and as they are written.
     pub priorities: Vec<(String, String)>,
@@ -80,27 +91,40 @@ pub(crate) struct Plan<'a> {
 }
 
 /// An object and how code reaches it.
-pub(crate) struct PlannedObject<'a> {
+pub struct PlannedObject<'a> {
+    /// The object.
     pub object: &'a Object,
+    /// Name of its accessor.
     pub name: String,
+    /// Row of its first entry.
     pub first_row: u16,
+    /// How code reaches its entries.
     pub shape: Shape,
 }
 
 /// How code reaches the entries of an object.
-pub(crate) enum Shape {
+pub enum Shape {
     /// One accessor.
     Var,
     /// One accessor that takes the sub-index, as all elements are alike; with the name of sub-index 0 where it can change.
-    Indexed { count: Option<String> },
+    Indexed {
+        /// Name of the accessor of sub-index 0.
+        count: Option<String>,
+    },
     /// A group of accessors.
-    Group { type_name: String },
+    Group {
+        /// Name of the type of the group.
+        type_name: String,
+    },
 }
 
 /// An entry, in the order of the table.
-pub(crate) struct PlannedEntry<'a> {
+pub struct PlannedEntry<'a> {
+    /// Index and sub-index.
     pub id: EntryId,
+    /// Position of its object.
     pub object: usize,
+    /// The entry.
     pub entry: &'a Entry,
     /// Name in the enumeration of all entries.
     pub variant: String,
@@ -108,15 +132,20 @@ pub(crate) struct PlannedEntry<'a> {
     pub name: String,
     /// Name of its accessor, in its object's group.
     pub member: String,
+    /// Where its value is.
     pub place: Place,
+    /// Bytes of its value; of a string its capacity.
     pub size: usize,
+    /// Position of its attributes.
     pub attributes: u16,
+    /// What its values are.
     pub kind: ValueKind,
 }
 
 /// What values of an entry are in code.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct ValueKind {
+pub struct ValueKind {
+    /// The type on the bus.
     pub data_type: DataType,
     /// The enum or bit field around the number.
     pub named: Option<String>,
@@ -128,55 +157,82 @@ pub(crate) struct ValueKind {
 
 /// What entries have in common in the table.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Attributes {
+pub struct Attributes {
+    /// The type on the bus.
     pub data_type: DataType,
+    /// Yes-or-no facts.
     pub flags: Flags,
+    /// Where the value is.
     pub place: PlaceKind,
+    /// The group that it is stored with.
     pub storage: Storage,
+    /// Offset of the value without its lowest 16 bits.
     pub page: usize,
+    /// Bytes of the value; of a string its capacity.
     pub size: usize,
+    /// Position of its limits, or [`NONE`].
     pub limits: u16,
+    /// Position of its permitted values, or [`NONE`].
     pub values: u16,
+    /// Position of the condition of writing it, or [`NONE`].
     pub condition: u16,
 }
 
 /// Yes-or-no facts of an entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(crate) struct Flags {
+pub struct Flags {
+    /// It can be read.
     pub read: bool,
+    /// It can be written.
     pub write: bool,
+    /// Writing it has a condition.
     pub locked: bool,
+    /// It can be mapped in a receive PDO.
     pub receive: bool,
+    /// It can be mapped in a transmit PDO.
     pub transmit: bool,
+    /// Sub-indices between those of its object are missing.
     pub sparse: bool,
+    /// Only some values are permitted.
     pub only_values: bool,
 }
 
 /// Where a value lies, without the offset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum PlaceKind {
+pub enum PlaceKind {
+    /// In the image.
     Image,
+    /// Among the constants.
     Constant,
+    /// Nowhere: it is a view of another entry.
     Alias,
+    /// With the application.
     Application,
 }
 
 /// A view of another entry.
-pub(crate) struct PlannedAlias {
+pub struct PlannedAlias {
     /// Row of the view.
     pub row: u16,
     /// Row of what it shows.
     pub target: u16,
+    /// The type of the view.
     pub data_type: DataType,
+    /// The value is multiplied by this …
     pub numerator: u32,
+    /// … and divided by this.
     pub denominator: u32,
+    /// How the result is rounded.
     pub rounding: Rounding,
+    /// What becomes of a result that the type cannot hold.
     pub outside: Outside,
 }
 
 /// A physical unit.
-pub(crate) struct PlannedUnit<'a> {
+pub struct PlannedUnit<'a> {
+    /// The unit.
     pub unit: &'a Unit,
+    /// Name of its type.
     pub name: String,
     /// The unit in its base.
     pub scale: Fraction,
@@ -188,7 +244,7 @@ pub(crate) struct PlannedUnit<'a> {
 
 /// What the raw value 0 of a unit stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct PlannedOffset {
+pub struct PlannedOffset {
     /// In the unit's symbol.
     pub in_symbol: SignedFraction,
     /// In its base.
@@ -197,44 +253,61 @@ pub(crate) struct PlannedOffset {
 
 /// A fraction that code computes with, which may be negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct SignedFraction {
+pub struct SignedFraction {
+    /// The numerator.
     pub numerator: i64,
+    /// The denominator.
     pub denominator: u64,
 }
 
 /// A positive fraction that code computes with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Fraction {
+pub struct Fraction {
+    /// The numerator.
     pub numerator: u64,
+    /// The denominator.
     pub denominator: u64,
 }
 
 /// An enum or a bit field.
-pub(crate) struct PlannedType<'a> {
+pub struct PlannedType<'a> {
+    /// The type.
     pub named: &'a NamedType,
+    /// Its name in code.
     pub name: String,
+    /// What it consists of.
     pub members: Members<'a>,
 }
 
 /// What a named type consists of.
-pub(crate) enum Members<'a> {
+pub enum Members<'a> {
+    /// The values of an enum.
     Values(Vec<PlannedValue<'a>>),
+    /// The fields of a bit field.
     Bits(Vec<PlannedBits<'a>>),
 }
 
 /// A value with a name.
-pub(crate) struct PlannedValue<'a> {
+pub struct PlannedValue<'a> {
+    /// Name of its constant.
     pub name: String,
+    /// The value.
     pub value: &'a EnumValue,
 }
 
 /// A bit or a run of bits with one accessor.
-pub(crate) struct PlannedBits<'a> {
+pub struct PlannedBits<'a> {
+    /// Name of the accessor.
     pub name: String,
+    /// What the specification calls it.
     pub label: String,
+    /// Its lowest bit.
     pub first: u8,
+    /// Its highest bit.
     pub last: u8,
+    /// What it means.
     pub about: &'a Text,
+    /// The field.
     pub field: &'a BitField,
     /// Constants for the values of the run.
     pub values: Vec<PlannedValue<'a>>,
@@ -242,14 +315,16 @@ pub(crate) struct PlannedBits<'a> {
 
 /// A set of special values that entries share. Sets of one name have the same meanings, and one type in code.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct PlannedSpecial {
+pub struct PlannedSpecial {
+    /// Name of the type.
     pub name: String,
+    /// The values.
     pub values: Vec<PlannedSpecialValue>,
 }
 
 impl PlannedSpecial {
     /// Whether both say the same, be it with other raw values.
-    pub(crate) fn has_meanings_of(&self, other: &Self) -> bool {
+    pub fn has_meanings_of(&self, other: &Self) -> bool {
         fn meanings(set: &PlannedSpecial) -> impl Iterator<Item = (&str, &str)> {
             set.values.iter().map(|value| (value.name.as_str(), value.text.as_str()))
         }
@@ -259,7 +334,8 @@ impl PlannedSpecial {
 
 /// A special value.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct PlannedSpecialValue {
+pub struct PlannedSpecialValue {
+    /// Name of the variant.
     pub name: String,
     /// What the specification calls it.
     pub text: String,
@@ -268,17 +344,22 @@ pub(crate) struct PlannedSpecialValue {
 }
 
 /// A PDO with its default mapping.
-pub(crate) struct PlannedPdo<'a> {
+pub struct PlannedPdo<'a> {
+    /// The PDO.
     pub pdo: &'a Pdo,
+    /// Name of its type.
     pub name: String,
+    /// What is mapped.
     pub fields: Vec<PlannedField>,
+    /// How many bits are mapped.
     pub bits: u32,
     /// How the device finds its parameters; `None` where it cannot serve the PDO.
     pub served: Option<ServedPdo>,
 }
 
 /// The rows of a PDO's parameters.
-pub(crate) struct ServedPdo {
+pub struct ServedPdo {
+    /// Row of the COB-ID.
     pub cob_id: u16,
     /// Of the number of mapped entries; the mapping parameters follow.
     pub mapping: u16,
@@ -287,42 +368,56 @@ pub(crate) struct ServedPdo {
 }
 
 /// A mapped entry in a PDO.
-pub(crate) struct PlannedField {
+pub struct PlannedField {
+    /// Name of the field.
     pub name: String,
+    /// Row of the mapped entry.
     pub row: u16,
+    /// Where it begins in the frame.
     pub first_bit: u32,
+    /// How many bits it has.
     pub bits: u8,
 }
 
 /// A condition between entries of the device.
-pub(crate) struct PlannedConstraint<'a> {
+pub struct PlannedConstraint<'a> {
+    /// What the specification calls it.
     pub name: &'a str,
+    /// Name of the function that checks it.
     pub function: String,
+    /// What it is for.
     pub about: &'a Text,
+    /// It holds only where this holds.
     pub when: Option<Condition>,
+    /// What has to hold.
     pub require: Condition,
     /// Whether parts were left out that name other devices.
     pub partial: bool,
 }
 
 /// A state machine.
-pub(crate) struct PlannedMachine<'a> {
+pub struct PlannedMachine<'a> {
+    /// The state machine.
     pub machine: &'a StateMachine,
     /// Begins the names of its types.
     pub name: String,
-    /// Rows of the words.
+    /// Row of the status word.
     pub status: u16,
+    /// Row of the control word.
     pub command: u16,
-    /// Names of the states and of the commands.
+    /// Names of the states.
     pub states: Vec<String>,
+    /// Names of the commands.
     pub commands: Vec<String>,
 }
 
 /// An error code with a constant.
-pub(crate) struct PlannedError<'a> {
+pub struct PlannedError<'a> {
+    /// Name of its constant.
     pub name: String,
     /// Its name as one of several.
     pub variant: String,
+    /// The error.
     pub error: &'a ErrorCode,
 }
 
@@ -330,7 +425,7 @@ pub(crate) struct PlannedError<'a> {
 const LARGEST_IMAGE: usize = 1 << 24;
 
 /// Plans the code of a device in a language. What cannot be code is reported; the plan is of use only if nothing was.
-pub(crate) fn plan<'a>(
+pub fn plan<'a>(
     system: &'a System,
     device: &'a Dictionary,
     language: &'a dyn Language,
@@ -417,12 +512,12 @@ fn rows(device: &Dictionary, diagnostics: &mut Diagnostics) -> BTreeMap<EntryId,
 
 impl<'a> Plan<'a> {
     /// The row of an entry.
-    pub(crate) fn row(&self, id: EntryId) -> Option<u16> {
+    pub fn row(&self, id: EntryId) -> Option<u16> {
         self.rows.get(&id).copied()
     }
 
     /// The entry of a row.
-    pub(crate) fn entry(&self, row: u16) -> Option<&PlannedEntry<'a>> {
+    pub fn entry(&self, row: u16) -> Option<&PlannedEntry<'a>> {
         self.entries.get(usize::from(row))
     }
 
@@ -447,6 +542,6 @@ fn too_large(span: Span, what: &str) -> Diagnostic {
 }
 
 /// The raw default of an entry, where it is an integer.
-pub(crate) fn default_integer(entry: &Entry) -> Option<i128> {
+pub fn default_integer(entry: &Entry) -> Option<i128> {
     entry.default.as_ref().and_then(Value::integer)
 }

@@ -8,18 +8,18 @@ use od_spec::source::Span;
 
 /// The words of a name in lower case: letters and digits of ASCII, after transliteration.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Words(Vec<String>);
+pub struct Words(Vec<String>);
 
 impl Words {
     /// The words of a name; none where it has no letter or digit.
-    pub(crate) fn of(name: &str) -> Self {
+    pub fn of(name: &str) -> Self {
         let ascii = transliterate(name);
         let words = ascii.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
         Self(words.map(str::to_ascii_lowercase).collect())
     }
 
     /// These words and those of another name.
-    pub(crate) fn and(&self, name: &str) -> Self {
+    pub fn and(&self, name: &str) -> Self {
         Self(self.0.iter().cloned().chain(Self::of(name).0).collect())
     }
 
@@ -33,12 +33,12 @@ impl Words {
     }
 
     /// `actual_velocity_16bit`; an `n` goes before a leading digit, which no language takes.
-    pub(crate) fn snake(&self) -> String {
+    pub fn snake(&self) -> String {
         with_letter(self.0.join("_"), 'n')
     }
 
     /// `ActualVelocity16bit`; between two digits a `_` stays, and an `N` goes before a leading digit.
-    pub(crate) fn camel(&self) -> String {
+    pub fn camel(&self) -> String {
         let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
         let mut joined = String::new();
         for word in &self.0 {
@@ -53,7 +53,7 @@ impl Words {
     }
 
     /// `ACTUAL_VELOCITY_16BIT`; an `N` goes before a leading digit.
-    pub(crate) fn screaming(&self) -> String {
+    pub fn screaming(&self) -> String {
         with_letter(self.0.join("_").to_ascii_uppercase(), 'N')
     }
 }

@@ -6,7 +6,7 @@ use std::ops::Deref;
 use super::NONE;
 
 /// Different items, each with its position. There are never more of them than rows.
-pub(crate) struct Pool<T> {
+pub struct Pool<T> {
     list: Vec<T>,
     positions: BTreeMap<T, u16>,
 }
@@ -19,7 +19,7 @@ impl<T> Default for Pool<T> {
 
 impl<T: Ord + Clone> Pool<T> {
     /// The position of an item, which is added if it is not there.
-    pub(crate) fn position(&mut self, item: T) -> u16 {
+    pub fn position(&mut self, item: T) -> u16 {
         if let Some(at) = self.positions.get(&item) {
             return *at;
         }

@@ -9,7 +9,8 @@ use super::names::{Scope, Words};
 use super::{Place, Plan, PlannedEntry, PlannedObject, Shape};
 
 /// Objects that one accessor reaches by their number.
-pub(crate) struct PlannedRun {
+pub struct PlannedRun {
+    /// Name of the accessor.
     pub name: String,
     /// The number of the first object.
     pub first: u16,
@@ -21,7 +22,7 @@ pub(crate) struct PlannedRun {
 
 impl PlannedRun {
     /// The number of the last object.
-    pub(crate) fn last(&self) -> u16 {
+    pub fn last(&self) -> u16 {
         let further = u16::try_from(self.objects.len().saturating_sub(1)).unwrap_or(u16::MAX);
         self.first.saturating_add(further)
     }
@@ -112,7 +113,7 @@ impl Plan<'_> {
     }
 
     /// The entries whose values the accessor of an object reaches: of an array those behind sub-index 0.
-    pub(crate) fn values_of(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
+    pub fn values_of(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
         let is_value = |entry: &&PlannedEntry<'_>| match object.shape {
             Shape::Var => true,
             Shape::Indexed { .. } => entry.id.sub.0 != 0,

@@ -44,7 +44,7 @@ const METHODS: &[&str] = &[
 ];
 
 /// Rust with `firmware-glue`.
-pub(crate) struct Rust;
+pub struct Rust;
 
 impl Language for Rust {
     fn identifier(&self, role: Role, words: &Words) -> String {

@@ -3,7 +3,7 @@
 //! The work has two steps. The plan decides everything that is the same in every language: the place of every value, the
 //! tables, and with the help of `language` the names. `print` writes it down as Rust.
 
-pub(crate) mod language;
+mod language;
 mod print;
 
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use od_spec::diag::Diagnostics;
 use od_spec::model::{Dictionary, EntryId, System};
 use proc_macro2::TokenStream;
 
-pub(crate) use self::language::Rust;
+pub use self::language::Rust;
 use crate::plan::{Plan, PlannedEntry, Shape, decided, plan};
 pub use crate::provenance::Provenance;
 
@@ -39,7 +39,7 @@ pub fn accessors(system: &System, device: &Dictionary) -> BTreeMap<EntryId, Stri
 }
 
 /// The call that reads an entry.
-pub(crate) fn call(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Option<String> {
+pub fn call(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Option<String> {
     let object = plan.objects.get(entry.object)?;
     Some(match &object.shape {
         Shape::Var => format!("{}()", object.name),

@@ -122,7 +122,7 @@ impl<'a> Allowed<'a> {
         for (code, Allow { decl: allow, .. }) in &self.by_code {
             let mut report = |span, what: String| {
                 diagnostics.push(
-                    Diagnostic::new(super::definitions_are_used::CODE, span, what)
+                    Diagnostic::new(super::names::definitions_are_used::CODE, span, what)
                         .help("remove it; it would hide the next such mistake"),
                 );
             };

@@ -5,111 +5,48 @@
 //! laid over both; the place of a message comes from the fact that it is about.
 
 pub(crate) mod allowed;
+pub(crate) mod departures;
 mod findings;
-mod from_library;
 mod help;
-mod pdo;
 mod rule;
 pub(crate) mod standard;
 mod subject;
 
-mod arrays_have_one_type;
-mod bit_rates_are_standard;
-mod bit_rates_exist;
-mod channels_are_in_the_device_type;
-mod cob_ids_are_unrestricted;
-mod cob_ids_differ;
-mod commands_are_flagged;
-mod commands_are_not_downloaded;
-mod communication_indices_are_defined;
-mod communication_values_are_defined;
-mod constants_are_not_stored;
-mod constants_have_values;
-mod constraints_are_computable;
-mod constraints_hold;
-mod counts_agree;
-mod counts_are_constant;
-mod definitions_are_used;
-mod device_type_is_kept;
-mod drive_modes;
-mod drive_modes_are_listed;
-mod drive_modes_have_their_objects;
-mod drive_objects_keep_their_type;
-mod elements_are_alike;
-mod error_codes_are_listed;
-mod error_control_exists;
-mod granularity_fits_mapping;
-mod heartbeats_of_others_are_watched;
-mod identity_agrees;
-mod indices_in_object_areas;
-mod integers_have_common_widths;
-mod limits_in_order;
-mod links_lead_somewhere;
-mod locked_entries_are_not_set;
-mod locks_guard_writing;
-mod lss_has_serial_number;
-mod mandatory_objects_exist;
-mod mappable_entries_have_pdos;
-mod mappable_types_have_a_length;
-mod mapped_entries_are_mappable;
-mod mapping_follows_access;
-mod mappings_change_as_a_whole;
-mod multiplexed_pdos_are_possible;
-mod multiplexed_pdos_are_supported;
-mod names_are_unique;
-mod names_fit_eds;
-mod objects_need_each_other;
-mod pdo_parameters_agree;
-mod pdos_can_be_switched_off;
-mod pdos_fit_a_frame;
-mod pdos_have_their_predefined_cob_ids;
-mod pdos_map_each_entry_once;
-mod placeholders_are_accepted;
-mod predefined_cob_ids_are_kept;
-mod real_defaults;
-mod real_values_are_kept;
-mod remote_frames_are_answered;
-mod reserved_bits_are_zero;
-mod sdo_clients_talk_to_one_server;
-mod services_have_their_objects;
-mod set_entries_are_writable;
-mod settings_have_an_order;
-mod standard_access_is_kept;
-mod standard_objects_are_complete;
-mod standard_objects_keep_their_type;
-pub(crate) mod start_values_are_allowed;
-mod stored_entries_can_be_stored;
-mod structures_have_entries;
-mod sync_start_has_an_effect;
-pub(crate) mod texts_fit_eds;
-mod times_fit_the_transmission;
-mod transmission_types_are_defined;
-mod value_fits_type;
-mod value_in_enum;
-mod value_within_limits;
-mod values_can_be_read_back;
-mod vendor_has_a_number;
-mod views_show_values;
-mod write_conditions_are_met;
+pub(crate) mod access;
+pub(crate) mod communication;
+pub(crate) mod constraints;
+pub(crate) mod device;
+pub(crate) mod drives;
+pub(crate) mod names;
+pub(crate) mod pdo;
+pub(crate) mod settings;
+pub(crate) mod standard_objects;
+pub(crate) mod storage;
+pub(crate) mod structure;
+pub(crate) mod values;
+
+#[cfg(test)]
+mod tests;
 
 /// Codes of rules that reading and looking up report as well.
 pub mod codes {
-    pub(crate) use super::cob_ids_are_unrestricted::CODE as BAD_COB_ID;
-    pub use super::commands_are_not_downloaded::CODE as IS_COMMAND;
-    pub use super::counts_agree::CODE as COUNT_MISMATCH;
-    pub use super::definitions_are_used::CODE as UNUSED_DEFINITION;
-    pub(crate) use super::locked_entries_are_not_set::CODE as LOCKED;
-    pub use super::names_are_unique::CODE as DUPLICATE_NAME;
-    pub use super::set_entries_are_writable::CODE as NOT_WRITABLE;
-    pub use super::settings_have_an_order::CODE as NO_ORDER;
-    pub use super::texts_fit_eds::CODE as NOT_FOR_EDS;
-    pub use super::value_fits_type::CODE as VALUE_DOES_NOT_FIT;
-    pub use super::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;
-    pub(crate) use super::value_within_limits::CODE as OUTSIDE_LIMITS;
-    pub use super::write_conditions_are_met::CODE as NOT_NOW;
+    pub(crate) use super::communication::cob_ids_are_unrestricted::CODE as BAD_COB_ID;
+    pub use super::names::definitions_are_used::CODE as UNUSED_DEFINITION;
+    pub use super::names::names_are_unique::CODE as DUPLICATE_NAME;
+    pub use super::names::texts_fit_eds::CODE as NOT_FOR_EDS;
+    pub use super::settings::commands_are_not_downloaded::CODE as IS_COMMAND;
+    pub(crate) use super::settings::locked_entries_are_not_set::CODE as LOCKED;
+    pub use super::settings::set_entries_are_writable::CODE as NOT_WRITABLE;
+    pub use super::settings::settings_have_an_order::CODE as NO_ORDER;
+    pub use super::settings::write_conditions_are_met::CODE as NOT_NOW;
+    pub use super::structure::counts_agree::CODE as COUNT_MISMATCH;
+    pub use super::values::value_fits_type::CODE as VALUE_DOES_NOT_FIT;
+    pub use super::values::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;
+    pub(crate) use super::values::value_within_limits::CODE as OUTSIDE_LIMITS;
 }
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
 use crate::diag::Diagnostics;
 use crate::model::{Dictionary, System};
@@ -123,85 +60,25 @@ pub(crate) use standard::Standard;
 use subject::Subject;
 
 /// All rules, by code.
-pub(crate) static RULES: &[Rule] = &[
-    names_are_unique::RULE,
-    counts_agree::RULE,
-    structures_have_entries::RULE,
-    arrays_have_one_type::RULE,
-    indices_in_object_areas::RULE,
-    names_fit_eds::RULE,
-    texts_fit_eds::RULE,
-    standard_objects_keep_their_type::RULE,
-    standard_objects_are_complete::RULE,
-    objects_need_each_other::RULE,
-    links_lead_somewhere::RULE,
-    value_in_enum::RULE,
-    value_fits_type::RULE,
-    value_within_limits::RULE,
-    limits_in_order::RULE,
-    locks_guard_writing::RULE,
-    constants_are_not_stored::RULE,
-    mappable_types_have_a_length::RULE,
-    mapping_follows_access::RULE,
-    mapped_entries_are_mappable::RULE,
-    cob_ids_are_unrestricted::RULE,
-    cob_ids_differ::RULE,
-    transmission_types_are_defined::RULE,
-    placeholders_are_accepted::RULE,
-    pdos_fit_a_frame::RULE,
-    pdo_parameters_agree::RULE,
-    granularity_fits_mapping::RULE,
-    communication_values_are_defined::RULE,
-    multiplexed_pdos_are_supported::RULE,
-    mappings_change_as_a_whole::RULE,
-    bit_rates_are_standard::RULE,
-    bit_rates_exist::RULE,
-    constraints_hold::RULE,
-    constraints_are_computable::RULE,
-    identity_agrees::RULE,
-    set_entries_are_writable::RULE,
-    locked_entries_are_not_set::RULE,
-    commands_are_not_downloaded::RULE,
-    write_conditions_are_met::RULE,
-    mandatory_objects_exist::RULE,
-    mappable_entries_have_pdos::RULE,
-    error_control_exists::RULE,
-    lss_has_serial_number::RULE,
-    constants_have_values::RULE,
-    definitions_are_used::RULE,
-    real_defaults::RULE,
-    error_codes_are_listed::RULE,
-    stored_entries_can_be_stored::RULE,
-    reserved_bits_are_zero::RULE,
-    standard_access_is_kept::RULE,
-    communication_indices_are_defined::RULE,
-    services_have_their_objects::RULE,
-    predefined_cob_ids_are_kept::RULE,
-    commands_are_flagged::RULE,
-    device_type_is_kept::RULE,
-    channels_are_in_the_device_type::RULE,
-    counts_are_constant::RULE,
-    pdos_map_each_entry_once::RULE,
-    pdos_can_be_switched_off::RULE,
-    vendor_has_a_number::RULE,
-    elements_are_alike::RULE,
-    pdos_have_their_predefined_cob_ids::RULE,
-    times_fit_the_transmission::RULE,
-    values_can_be_read_back::RULE,
-    integers_have_common_widths::RULE,
-    multiplexed_pdos_are_possible::RULE,
-    heartbeats_of_others_are_watched::RULE,
-    sdo_clients_talk_to_one_server::RULE,
-    drive_objects_keep_their_type::RULE,
-    real_values_are_kept::RULE,
-    views_show_values::RULE,
-    remote_frames_are_answered::RULE,
-    sync_start_has_an_effect::RULE,
-    start_values_are_allowed::RULE,
-    settings_have_an_order::RULE,
-    drive_modes_have_their_objects::RULE,
-    drive_modes_are_listed::RULE,
-];
+pub(crate) static RULES: LazyLock<Vec<&'static Rule>> = LazyLock::new(|| {
+    let areas = [
+        structure::RULES,
+        names::RULES,
+        values::RULES,
+        constraints::RULES,
+        access::RULES,
+        storage::RULES,
+        settings::RULES,
+        pdo::RULES,
+        communication::RULES,
+        standard_objects::RULES,
+        device::RULES,
+        drives::RULES,
+    ];
+    let mut rules: Vec<&Rule> = areas.into_iter().flatten().collect();
+    rules.sort_by_key(|rule| rule.code);
+    rules
+});
 
 /// Applies the rules to a system whose devices are types: each may become any node.
 pub(crate) fn system(

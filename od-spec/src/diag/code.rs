@@ -26,7 +26,7 @@ pub struct Code {
 }
 
 /// Two short texts: one that a rule refuses, and one that it accepts. Lines that every such text has are left out; see
-/// [`Example::whole`].
+/// [`Language::whole`].
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct Example {
@@ -80,6 +80,18 @@ impl Language {
             Language::Concise => "example.bin",
         }
     }
+
+    /// A text of an example as a whole one, with everything that such a text has.
+    pub fn whole(self, text: &str) -> String {
+        match self {
+            Language::Specification => whole_specification(text),
+            Language::Eds | Language::Dcf => crate::eds::example::whole(self, text),
+            Language::Parameters => commissioning::parameters(text),
+            Language::Plant => commissioning::plant(text),
+            Language::Xdd => commissioning::xdd(text),
+            Language::Concise => text.to_owned(),
+        }
+    }
 }
 
 impl Example {
@@ -117,35 +129,21 @@ impl Example {
     pub(crate) const fn concise(before: &'static str, after: &'static str) -> Self {
         Self { language: Language::Concise, before, after }
     }
+}
 
-    /// A text of the example as a whole one, with everything that such a text has.
-    pub fn whole(&self, text: &str) -> String {
-        match self.language {
-            Language::Specification => Self::whole_specification(text),
-            Language::Eds | Language::Dcf => crate::eds::example::whole(self.language, text),
-            Language::Parameters => commissioning::parameters(text),
-            Language::Plant => commissioning::plant(text),
-            Language::Xdd => commissioning::xdd(text),
-            Language::Concise => text.to_owned(),
-        }
+/// With a version, a title, and a device where the text has none.
+fn whole_specification(text: &str) -> String {
+    let has = |key: &str| text.lines().any(|line| line.starts_with(key));
+    let mut whole = String::from("od-spec: 1\ntitle: Example\n");
+    if !has("uses:") {
+        whole.push_str("uses: [cia301]\n");
     }
-
-    /// With a version, a title, and a device where the text has none.
-    pub(crate) fn whole_specification(text: &str) -> String {
-        let has = |key: &str| text.lines().any(|line| line.starts_with(key));
-        let mut whole = String::from("od-spec: 1\ntitle: Example\n");
-        if !has("uses:") {
-            whole.push_str("uses: [cia301]\n");
-        }
-        if !has("devices:") {
-            whole.push_str(
-                "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer]}\n",
-            );
-        }
-        whole.push_str(text);
-        whole.push('\n');
-        whole
+    if !has("devices:") {
+        whole.push_str("devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer]}\n");
     }
+    whole.push_str(text);
+    whole.push('\n');
+    whole
 }
 
 impl PartialEq for Code {

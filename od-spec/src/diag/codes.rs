@@ -183,7 +183,7 @@ codes! {
             "parameters:\n  2004.1: 7\n  ramps: {down: 8}"
         )]
     WRITE_FAILED Error "OD0709" "an output that cannot be written":
-        "A file could not be created, written or renamed. Nothing was changed: the old files are all still there."
+        "A file could not be created, written or renamed. The message names the files that were written before it; all others are as they were, and every file is whole. The next run writes what is missing."
     BAD_TEMPLATE Error "OD0711" "a template that cannot be printed":
         "A documentation template has a syntax error, or asks for something that `odgen docs --dump-context` does not show. Nothing was written."
     CONCISE_CUT_OFF Error "OD0712" "a concise DCF that ends too early":

@@ -189,6 +189,11 @@ impl Diagnostic {
         self.notes.iter().chain(&self.stumbling).cloned()
     }
 
+    /// Says in words who stumbles over it.
+    pub fn tell_readers(&mut self) {
+        self.stumbling = self.minded_by.sentences().into();
+    }
+
     /// How serious it is.
     pub const fn severity(&self) -> Severity {
         self.severity
@@ -293,7 +298,7 @@ impl Diagnostics {
     }
 
     /// The messages, in order, to be changed.
-    pub(crate) fn as_mut_slice(&mut self) -> &mut [Diagnostic] {
+    pub fn as_mut_slice(&mut self) -> &mut [Diagnostic] {
         &mut self.list
     }
 

@@ -10,14 +10,11 @@ pub(crate) mod dates;
 mod document;
 pub(crate) mod example;
 mod extras;
-#[cfg(test)]
-mod findings;
 mod line;
 pub(crate) mod names;
 pub(crate) mod number;
 pub(crate) mod owner;
 pub(crate) mod read;
-pub mod readers;
 mod scan;
 pub(crate) mod view;
 
@@ -53,6 +50,3 @@ pub use document::{Document, Section, SectionRef};
 pub use extras::Extra;
 pub use line::{Line, LineEnd, LineKind};
 pub use owner::{GENERATED, Owner, Remark};
-
-#[cfg(test)]
-mod examples;

@@ -93,36 +93,6 @@ impl CommunicationParameter {
             (Self::SyncStart, _) => "SYNC start value",
         }
     }
-
-    /// What it is for, by language; nothing where the name says it.
-    pub const fn about(self) -> &'static [(&'static str, &'static str)] {
-        match self {
-            Self::Count | Self::Reserved => &[],
-            Self::CobId => &[
-                (
-                    "de",
-                    "CAN-Kennung; Bit 31: PDO ungültig, Bit 30: keine Anforderung durch Remote-Frames (TPDO)",
-                ),
-                ("en", "CAN identifier; bit 31: PDO not valid, bit 30: no remote frames (TPDO)"),
-            ],
-            Self::Transmission => &[
-                ("de", "0 bis 240: synchron; 254, 255: ereignisgesteuert; 252, 253: auf Remote-Frame"),
-                ("en", "0 to 240: synchronous; 254, 255: event-driven; 252, 253: on remote frame"),
-            ],
-            Self::InhibitTime => &[
-                ("de", "kleinster Abstand zweier Sendungen, in 100 µs"),
-                ("en", "least time between two transmissions, in 100 µs"),
-            ],
-            Self::EventTimer => &[
-                ("de", "größter Abstand zweier Sendungen oder, bei einem RPDO, Empfänge, in ms; 0: aus"),
-                ("en", "longest time between two transmissions or, for an RPDO, receptions, in ms; 0: off"),
-            ],
-            Self::SyncStart => &[
-                ("de", "Stand des SYNC-Zählers bei der ersten Sendung; 0: beliebig"),
-                ("en", "SYNC counter value of the first transmission; 0: any"),
-            ],
-        }
-    }
 }
 
 /// What keeps the parameters of PDOs that can be written, where the specification says nothing: a device that stores communication

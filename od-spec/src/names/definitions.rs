@@ -11,7 +11,7 @@ use crate::source::{FileId, SourceMap, Span, Spanned};
 use crate::yaml::{Node, NodeKind};
 
 /// Something with a name.
-pub(super) fn definition(kind: Kind, name: Spanned<&str>, key: Span) -> Definition {
+fn definition(kind: Kind, name: Spanned<&str>, key: Span) -> Definition {
     let spelling = if name.value.contains(PLACEHOLDER) { Spelling::Pattern } else { Spelling::Written };
     Definition {
         kind,
@@ -52,7 +52,7 @@ fn text(name: &Spanned<String>) -> Spanned<&str> {
 }
 
 /// The value of a short form, or of `name:` in the long one.
-pub(super) fn short_name(node: &Node) -> Option<Spanned<&str>> {
+fn short_name(node: &Node) -> Option<Spanned<&str>> {
     match node.kind {
         NodeKind::Map(_) => node.get("name").and_then(Node::text),
         _ => node.text(),
@@ -211,6 +211,7 @@ fn member<'t>(
     let id = known.add(spelt(entry, name.is_some(), || number.value.to_owned()));
     Member { first, last, id, name: name.map(|name| name.value), type_name: text_of(node, "type") }
 }
+
 /// A definition that has its number for a name where none is written.
 fn spelt(definition: Definition, is_named: bool, number: impl FnOnce() -> String) -> Definition {
     if is_named {
@@ -274,6 +275,6 @@ fn parts_of_picture<'t>(content: &'t Node, known: &mut Known<'t>) {
 }
 
 /// A sub-index or a run of them, as a key.
-pub(super) fn subs(key: &str) -> Option<(SubIndex, SubIndex)> {
+fn subs(key: &str) -> Option<(SubIndex, SubIndex)> {
     lexical::sub_indices(key).map(|range| (range.first, range.last))
 }

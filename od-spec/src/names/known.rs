@@ -21,7 +21,7 @@ pub(super) enum Scope {
 /// All definitions, and how they are found.
 pub(super) struct Known<'t> {
     /// The maker's file.
-    pub(super) root: FileId,
+    root: FileId,
     list: Vec<Definition>,
     by_name: BTreeMap<(Kind, Scope, &'t str), Vec<DefinitionId>>,
     /// Error codes from the first to the last.
@@ -109,6 +109,7 @@ impl<'t> Known<'t> {
     }
 }
 
+/// Objects and entries, by their numbers.
 impl<'t> Known<'t> {
     /// What describes an index for some devices, as a text of `file` means it.
     fn described<'s>(&'s self, file: FileId, index: Index, scope: Devices<'_>) -> Vec<&'s Described<'t>> {

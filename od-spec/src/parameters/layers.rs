@@ -67,8 +67,7 @@ pub fn assign_layers(
     layers: &[Layer],
     diagnostics: &mut Diagnostics,
 ) -> Assigned {
-    let rules = check::RULES.iter().collect::<Vec<_>>();
-    assign_layers_with(standard::rules(&rules), system, device, node, layers, diagnostics)
+    assign_layers_with(standard::rules(&check::RULES), system, device, node, layers, diagnostics)
 }
 
 /// A setting with its layer, and what it takes the place of.

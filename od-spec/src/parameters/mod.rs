@@ -76,14 +76,7 @@ pub fn assign(
     settings: &[Assignment],
     diagnostics: &mut Diagnostics,
 ) -> ParameterValues {
-    assign_with(
-        standard::rules(&check::RULES.iter().collect::<Vec<_>>()),
-        system,
-        device,
-        node,
-        settings,
-        diagnostics,
-    )
+    assign_with(standard::rules(&check::RULES), system, device, node, settings, diagnostics)
 }
 
 /// Reads settings and checks them under some of the rules.

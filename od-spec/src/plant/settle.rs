@@ -30,8 +30,7 @@ impl Plant {
     /// Works out what the nodes of a class are set to, and checks it by the rules of the language, as the other devices at their position
     /// are set. Classes depend on nothing but the plant: they may be settled in any order, and at the same time.
     pub fn settle(&self, class: usize) -> Option<Settled> {
-        let list = check::RULES.iter().collect::<Vec<_>>();
-        let rules = standard::rules(&list);
+        let rules = standard::rules(&check::RULES);
         let class = self.classes.get(class)?;
         let device = self.devices.get(class.own.device)?;
         let mut diagnostics = Diagnostics::new();

@@ -6,7 +6,7 @@ use super::libraries::{self, Libraries};
 use super::scope::unknown_or;
 use crate::ast::{DeviceDecl, FeatureDecl, Name, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::shipped;
+use crate::library::shipped;
 use crate::source::Spanned;
 
 /// A feature that a device has.

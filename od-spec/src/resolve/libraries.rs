@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::scope::unknown;
 use crate::ast::{Axes, EntryDecl, ErrorDecl, FeatureDecl, MachineDecl, Name, ObjectDecl, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics, codes};
+use crate::library::shipped::LIBRARIES;
 use crate::model::Index;
-use crate::shipped::LIBRARIES;
 use crate::source::{FileId, Spanned};
 
 /// The libraries of a specification; of what has one name or number in them, the first counts.

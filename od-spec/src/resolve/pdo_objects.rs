@@ -7,6 +7,20 @@ use crate::model::{
     Statement, Storage, SubIndex, Text, Value,
 };
 use crate::source::{Span, Spanned};
+use crate::wording::Language;
+
+crate::texts! {
+    /// What an entry of these objects is for, where its name does not say it.
+    enum About in "pdo parameters" {
+        CobId = "cob_id",
+        Transmission = "transmission",
+        InhibitTime = "inhibit_time",
+        EventTimer = "event_timer",
+        SyncStart = "sync_start",
+        Mapped = "mapped",
+        Mapping = "mapping",
+    }
+}
 
 /// A parameter of a PDO.
 struct Parameter {
@@ -18,7 +32,7 @@ struct Parameter {
     default: Option<Value>,
     /// Where the value stands.
     stated: Option<Statement>,
-    about: &'static [(&'static str, &'static str)],
+    about: Option<About>,
 }
 
 impl Parameter {
@@ -43,7 +57,10 @@ impl Parameter {
             high: max.map(|max| max.value),
             stored: if right.is_writable() { storage } else { Storage::No },
             facts: facts.collect(),
-            about: Text::among(self.about.iter().copied(), languages),
+            about: self.about.map_or_else(Text::default, |about| {
+                let texts = Language::ALL.iter().map(|language| (language.code(), about.text(*language)));
+                Text::among(texts, languages)
+            }),
             ..Entry::new(SubIndex(self.sub), name, self.data_type, right, span)
         }
     }
@@ -75,6 +92,19 @@ fn object(
             .map(|parameter| parameter.into_entry(kept, languages, span))
             .collect(),
         span,
+    }
+}
+
+/// What a communication parameter is for; nothing where its name says it.
+const fn about(parameter: CommunicationParameter) -> Option<About> {
+    use CommunicationParameter as Kind;
+    match parameter {
+        Kind::Count | Kind::Reserved => None,
+        Kind::CobId => Some(About::CobId),
+        Kind::Transmission => Some(About::Transmission),
+        Kind::InhibitTime => Some(About::InhibitTime),
+        Kind::EventTimer => Some(About::EventTimer),
+        Kind::SyncStart => Some(About::SyncStart),
     }
 }
 
@@ -122,7 +152,7 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Descri
             access: kind.usual_access(),
             stated: (default.is_some() || kind == Kind::Count).then(|| stated(written, decl)),
             default,
-            about: kind.about(),
+            about: about(kind),
         })
     };
     let mut list: Vec<Parameter> = Kind::ALL.into_iter().filter_map(parameter).collect();
@@ -155,10 +185,7 @@ pub(super) fn mapping_object(
         access,
         default: Some(Value::Integer(mapped)),
         stated: Some(stated(Some(decl.span), decl)),
-        about: &[
-            ("de", "0 schaltet die Zuordnung aus, solange sie geändert wird"),
-            ("en", "0 disables the mapping while it is changed"),
-        ],
+        about: Some(About::Mapped),
     }];
     list.extend((1..=pdo.capacity).map(|sub| {
         let mapped = map.get(usize::from(sub) - 1);
@@ -169,10 +196,7 @@ pub(super) fn mapping_object(
             access,
             default: Some(Value::Integer(mapped.map_or(0, |mapped| mapped.value.parameter().into()))),
             stated: Some(stated(mapped.map(|mapped| mapped.span), decl)),
-            about: &[
-                ("de", "Bits 31..16 Index, 15..8 Subindex, 7..0 Länge in Bits"),
-                ("en", "bits 31..16 index, 15..8 sub-index, 7..0 length in bits"),
-            ],
+            about: Some(About::Mapping),
         }
     }));
     let name = described.mapping_name(pdo);

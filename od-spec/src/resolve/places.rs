@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 
 use crate::model::{Document, ErratumPlace, Index, TableContent, TableId};
+use crate::wording::Language;
 
 /// What the words of a place name.
 pub(super) struct Named {
@@ -40,10 +41,10 @@ impl Kind {
 
     /// The kind that a number behind this word is of.
     fn of(word: &str) -> Option<Self> {
-        if NUMBERED.contains(&word) {
+        if means(word, &["table", "tables"]) {
             return Some(Self::Table);
         }
-        FIGURES.contains(&word).then_some(Self::Figure)
+        means(word, &["figure", "figures"]).then_some(Self::Figure)
     }
 }
 
@@ -88,27 +89,10 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Words for a numbered table, one or several.
-const NUMBERED: [&str; 4] = ["table", "tables", "tabelle", "tabellen"];
-/// Words for a figure, one or several.
-const FIGURES: [&str; 4] = ["figure", "figures", "abbildung", "abbildungen"];
-/// Words for a table without a number.
-const UNNUMBERED: [&str; 9] = [
-    "table",
-    "tables",
-    "overview",
-    "overviews",
-    "tabelle",
-    "tabellen",
-    "objekttabelle",
-    "übersicht",
-    "übersichten",
-];
-/// What stands between the members of a list.
-const AND: [&str; 2] = ["and", "und"];
-const TO: [&str; 2] = ["to", "bis"];
-/// What stands before a table that the place is only near to.
-const NEAR: [&str; 2] = ["below", "unter"];
+/// Whether a word, in lower case, stands for one of these things in a running text of any language.
+fn means(word: &str, keys: &[&'static str]) -> bool {
+    keys.iter().any(|key| Language::words_of_all(key).any(|one| one == word))
+}
 
 /// The tables that a place names, by number or as the unnumbered tables with the erratum's objects in a named section.
 pub(super) fn read(place: &str, at: &[ErratumPlace], places: &Places<'_>) -> Named {
@@ -182,7 +166,7 @@ impl Words {
             at += 1;
             let kind = Kind::of(word).filter(|_| words.get(at).is_some_and(|next| number(next).is_some()));
             if let Some(kind) = kind {
-                let near = before.is_some_and(|before| NEAR.contains(before));
+                let near = before.is_some_and(|before| means(before, &["below"]));
                 let used = numbers(&words[at..], |first, last| {
                     if !near {
                         read.numbers.push((kind, first..=last));
@@ -191,18 +175,18 @@ impl Words {
                 at += used;
             } else if let Some(section) = places.sections.get(word).copied() {
                 let first = match (before, read.sections.last()) {
-                    (Some(before), Some(last)) if TO.contains(before) => last.end() + 1,
+                    (Some(before), Some(last)) if means(before, &["to"]) => last.end() + 1,
                     _ => section,
                 };
                 read.sections.push(first.min(section)..=section);
-            } else if !AND.contains(word) && !TO.contains(word) {
+            } else if !means(word, &["and", "to"]) {
                 others.push(*word);
             }
         }
         read.unnumbered = if others.is_empty() {
             read.numbers.is_empty()
         } else {
-            others.iter().any(|word| UNNUMBERED.contains(word))
+            others.iter().any(|word| means(word, &["table", "tables", "overview"]))
         };
         read
     }
@@ -217,7 +201,7 @@ fn numbers(words: &[&str], mut found: impl FnMut(u32, u32)) -> usize {
     let (mut used, mut last) = (0, None);
     while let Some(word) = words.get(used) {
         match (number(word), last) {
-            (Some(one), Some(first)) if used > 0 && TO.contains(&words[used - 1]) && first < one => {
+            (Some(one), Some(first)) if used > 0 && means(words[used - 1], &["to"]) && first < one => {
                 found(first + 1, one);
                 last = Some(one);
             }
@@ -225,7 +209,7 @@ fn numbers(words: &[&str], mut found: impl FnMut(u32, u32)) -> usize {
                 found(one, one);
                 last = Some(one);
             }
-            (None, _) if AND.contains(word) || TO.contains(word) => {
+            (None, _) if means(word, &["and", "to"]) => {
                 // A connector counts only before a further number.
                 if words.get(used + 1).is_none_or(|next| number(next).is_none()) {
                     break;

@@ -10,9 +10,9 @@ use crate::ast::Spec;
 use crate::check::{Rule, Rules, Standard};
 use crate::decode::decode;
 use crate::diag::Diagnostics;
+use crate::library::shipped::LIBRARIES;
 use crate::model::{Dictionary, Index, Object};
 use crate::resolve;
-use crate::shipped::LIBRARIES;
 use crate::source::SourceMap;
 use crate::yaml;
 

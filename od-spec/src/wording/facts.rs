@@ -1,14 +1,54 @@
 //! Words for access, PDO mapping, storage, views, and for facts themselves.
 
-use super::{Language, Notation, Word, Wording};
+use super::{Notation, Wording};
 use crate::model::{
     Access, Alias, Category, Departure, Dictionary, Entry, EntryId, ErratumKind, ErrorKind, Fact, Index,
     Outside, Part, PdoMapping, Ratio, Rounding, Storage, SubIndex,
 };
 
+crate::texts! {
+    /// A fixed word about a fact of an entry.
+    pub enum Word in "facts" {
+        ToRange = "to_range",
+        From = "counted_from",
+        NodeId = "node_id",
+        NamelessBit = "nameless_bit",
+        NamelessBits = "nameless_bits",
+        Communication = "communication",
+        Application = "application",
+        Manufacturer = "manufacturer",
+        Remanent = "remanent",
+        StoredCommunication = "stored_communication",
+        StoredWithAll = "stored_with_all",
+        StoredApplication = "stored_application",
+        StoredManufacturer = "stored_manufacturer",
+        StoredRemanent = "stored_remanent",
+        NotStored = "not_stored",
+        CategoryMandatory = "mandatory",
+        CategoryOptional = "optional",
+        CategoryConditional = "conditional",
+        OutsideAbort = "outside_abort",
+        OutsideSaturate = "outside_saturate",
+        OutsideWrap = "outside_wrap",
+        RoundedDown = "rounded_down",
+        RoundedNearest = "rounded_nearest",
+        RoundedUp = "rounded_up",
+        RoundedZero = "rounded_zero",
+    }
+}
+
+crate::texts! {
+    /// What part of an object a departure is about.
+    enum PartWord in "departures" {
+        Elements = "elements",
+        Entry = "entry",
+        Entries = "entries",
+    }
+}
+
 impl Wording {
     /// A fixed word.
-    pub const fn word(self, word: Word) -> &'static str {
+    pub fn word(self, word: Word) -> &'static str {
         word.text(self.language)
     }
 
@@ -47,7 +87,7 @@ impl Wording {
     }
 
     /// What keeps a value over power-off: a word in the documents' tables, a phrase elsewhere; empty where nothing does.
-    pub const fn storage(self, storage: Storage) -> &'static str {
+    pub fn storage(self, storage: Storage) -> &'static str {
         match (self.notation, storage) {
             (Notation::Json, storage) => storage.word(),
             (_, Storage::No) => "",
@@ -63,7 +103,7 @@ impl Wording {
     }
 
     /// The heading above all that is kept in one way.
-    pub const fn storage_group(self, storage: Storage) -> &'static str {
+    pub fn storage_group(self, storage: Storage) -> &'static str {
         self.word(match storage {
             Storage::No => Word::NotStored,
             Storage::Communication => Word::StoredCommunication,
@@ -83,7 +123,7 @@ impl Wording {
     }
 
     /// Whether a standard demands an object.
-    pub const fn category(self, category: Category) -> &'static str {
+    pub fn category(self, category: Category) -> &'static str {
         self.word(match category {
             Category::Mandatory => Word::CategoryMandatory,
             Category::Optional => Word::CategoryOptional,
@@ -92,7 +132,7 @@ impl Wording {
     }
 
     /// How a rescaling alias rounds.
-    pub const fn rounding(self, rounding: Rounding) -> &'static str {
+    pub fn rounding(self, rounding: Rounding) -> &'static str {
         self.word(match rounding {
             Rounding::Down => Word::RoundedDown,
             Rounding::Up => Word::RoundedUp,
@@ -115,122 +155,31 @@ impl Wording {
     }
 
     /// A kind of fact: `unit`.
-    pub const fn fact(self, fact: Fact) -> &'static str {
-        match self.language {
-            Language::English => fact.word(),
-            Language::German => match fact {
-                Fact::Name => "Name",
-                Fact::ObjectType => "Objekttyp",
-                Fact::Count => "Anzahl",
-                Fact::Presence => "zusätzlich",
-                Fact::Type => "Datentyp",
-                Fact::Meaning => "Bedeutung",
-                Fact::Unit => "Einheit",
-                Fact::Access => "Zugriff",
-                Fact::Mapping => "PDO-Mapping",
-                Fact::Default => "Vorgabe",
-                Fact::LowLimit => "kleinster Wert",
-                Fact::HighLimit => "größter Wert",
-                Fact::Special => "besondere Werte",
-                Fact::Storage => "Speicherung",
-                Fact::Category => "Kategorie",
-                Fact::Since => "Ausgabe",
-                Fact::WriteCondition => "Schreibbedingung",
-                Fact::BitErrors => "Fehlercodes der Bits",
-                Fact::Capacity => "Kapazität",
-                Fact::Identifier => "Bezeichner",
-                Fact::Eds => "EDS",
-                Fact::Links => "verknüpfte Objekte",
-                Fact::Warning => "Warnung",
-                Fact::About => "Beschreibung",
-                Fact::Alias => "Abbild",
-                Fact::RemoteFrames => "Remote-Frames",
-                Fact::BitRates => "Bitraten",
-                Fact::Granularity => "Granularität",
-                Fact::Map => "PDO-Inhalt",
-                Fact::Vendor => "Hersteller",
-                Fact::Product => "Produkt",
-                Fact::ProductRevision => "Produktrevision",
-                Fact::DeviceType => "Gerätetyp",
-                Fact::BootUp => "Hochlauf",
-                Fact::GroupMessaging => "Gruppennachrichten",
-                Fact::Lss => "LSS",
-                Fact::Dummies => "Platzhalter",
-                Fact::DynamicChannels => "dynamische Kanäle",
-                Fact::PdoCount => "PDOs",
-                Fact::Requirement => "Forderung",
-                Fact::Reaction => "Reaktion",
-                Fact::Shown => "angezeigt durch",
-                Fact::Reset => "Rücksetzen",
-                Fact::OptionCode => "wählt die Reaktion",
-                Fact::Register => "Fehlerregister",
-                Fact::Priority => "Priorität",
-                Fact::Languages => "Sprachen",
-                Fact::Document => "Dokument",
-                Fact::Errata => "Errata",
-                Fact::Node => "Knoten",
-            },
-        }
+    pub fn fact(self, fact: Fact) -> &'static str {
+        self.language.text("kinds of facts", fact.word())
     }
 
     /// A departure from a standard, with the entries that it is about: `name`, `elements: unit`,
     /// `sub-indices 2 to 15: added`.
     pub fn departure(self, departure: Departure) -> String {
         let fact = self.fact(departure.fact);
-        match (self.language, departure.part) {
-            (Language::English | Language::German, Part::Object) => fact.to_owned(),
-            (Language::English, Part::Elements) => format!("elements: {fact}"),
-            (Language::German, Part::Elements) => format!("Elemente: {fact}"),
-            (Language::English, Part::Entry(sub)) => format!("sub-index {sub}: {fact}"),
-            (Language::German, Part::Entry(sub)) => format!("Subindex {sub}: {fact}"),
-            (Language::English, Part::Entries { first, last }) => {
-                format!("sub-indices {first} to {last}: {fact}")
-            }
-            (Language::German, Part::Entries { first, last }) => {
-                format!("Subindizes {first} bis {last}: {fact}")
+        match departure.part {
+            Part::Object => fact.to_owned(),
+            Part::Elements => PartWord::Elements.filled(self.language, &[fact]),
+            Part::Entry(sub) => PartWord::Entry.filled(self.language, &[&sub.to_string(), fact]),
+            Part::Entries { first, last } => {
+                PartWord::Entries.filled(self.language, &[&first.to_string(), &last.to_string(), fact])
             }
         }
     }
 
     /// A kind of error, as a bit of the error register.
-    pub const fn error_kind(self, kind: ErrorKind) -> &'static str {
-        match (self.language, kind) {
-            (Language::English, kind) => kind.word(),
-            (Language::German, ErrorKind::Generic) => "allgemein",
-            (Language::German, ErrorKind::Current) => "Strom",
-            (Language::German, ErrorKind::Voltage) => "Spannung",
-            (Language::German, ErrorKind::Temperature) => "Temperatur",
-            (Language::German, ErrorKind::Communication) => "Kommunikation",
-            (Language::German, ErrorKind::Profile) => "Geräteprofil",
-            (Language::German, ErrorKind::Manufacturer) => "Hersteller",
-        }
+    pub fn error_kind(self, kind: ErrorKind) -> &'static str {
+        self.language.text("kinds of errors", kind.word())
     }
 
     /// What kind of fact an erratum corrects.
-    pub const fn erratum_kind(self, kind: ErratumKind) -> &'static str {
-        match self.language {
-            Language::English => kind.word(),
-            Language::German => match kind {
-                ErratumKind::Index => "Index",
-                ErratumKind::Name => "Name",
-                ErratumKind::Type => "Datentyp",
-                ErratumKind::Sign => "Vorzeichen",
-                ErratumKind::Access => "Zugriff",
-                ErratumKind::ObjectType => "Objekttyp",
-                ErratumKind::SubIndex => "Subindex",
-                ErratumKind::Count => "Anzahl",
-                ErratumKind::Default => "Vorgabe",
-                ErratumKind::Limit => "Grenze",
-                ErratumKind::Unit => "Einheit",
-                ErratumKind::Pdo => "PDO-Mapping",
-                ErratumKind::Stored => "Speicherung",
-                ErratumKind::Bits => "Bits",
-                ErratumKind::Values => "Werte",
-                ErratumKind::Table => "Tabelle",
-                ErratumKind::Text => "Text",
-                ErratumKind::Gap => "Lücke",
-                ErratumKind::Profile => "Profil",
-            },
-        }
+    pub fn erratum_kind(self, kind: ErratumKind) -> &'static str {
+        self.language.text("kinds of errata", kind.word())
     }
 }

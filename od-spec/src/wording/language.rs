@@ -1,118 +1,218 @@
-//! Languages, and the fixed words for facts in each.
+//! Languages of documents: each is a file of texts in `languages/`, and a text is found by its section and key.
 
-/// A language whose words are known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Language {
-    /// English, also for languages whose words are not known.
-    English,
-    /// German.
-    German,
-}
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::LazyLock;
 
-impl Language {
-    /// Codes of the languages whose words are known.
-    pub const CODES: &'static [&'static str] = &["en", "de"];
+use crate::model::Date;
 
-    /// The language of a code such as `de` or `de-AT`.
-    pub fn of(code: &str) -> Self {
-        if code == "de" || code.starts_with("de-") { Self::German } else { Self::English }
-    }
+/// The languages of the files in `languages/`, one line each.
+macro_rules! languages {
+    ($($(#[$meta:meta])* $name:ident $code:literal;)+) => {
+        impl Language {
+            $($(#[$meta])* pub const $name: Self = Self::new($code, || {
+                static TEXTS: LazyLock<Texts> =
+                    LazyLock::new(|| Texts::read(include_str!(concat!("../../languages/", $code, ".txt"))));
+                &TEXTS
+            });)+
 
-    /// A number that was written with a decimal point, as the language writes it.
-    pub fn decimal(self, number: &str) -> String {
-        match self {
-            Self::English => number.to_owned(),
-            Self::German => number.replace('.', ","),
-        }
-    }
-
-    /// A date: `2009-05-27`, in German `27.05.2009`.
-    pub fn date(self, date: crate::model::Date) -> String {
-        let crate::model::Date { year, month, day } = date;
-        match self {
-            Self::English => format!("{year:04}-{month:02}-{day:02}"),
-            Self::German => format!("{day:02}.{month:02}.{year:04}"),
-        }
-    }
-}
-
-macro_rules! words {
-    ($($(#[$meta:meta])* $variant:ident $key:literal: $english:literal, $german:literal;)+) => {
-        /// A fixed word about a fact of an entry, in every language.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub enum Word { $($(#[$meta])* $variant,)+ }
-
-        impl Word {
-            /// All words.
-            pub const ALL: &'static [Word] = &[$(Word::$variant,)+];
-
-            /// The name by which templates know the word.
-            pub const fn key(self) -> &'static str {
-                match self { $(Word::$variant => $key,)+ }
-            }
-
-            /// The word in a language.
-            pub const fn text(self, language: Language) -> &'static str {
-                match (self, language) {
-                    $((Word::$variant, Language::English) => $english,
-                    (Word::$variant, Language::German) => $german,)+
-                }
-            }
+            /// The languages whose texts are known.
+            pub const ALL: &'static [Self] = &[$(Self::$name,)+];
         }
     };
 }
 
-words! {
-    /// Between the ends of a range.
-    ToRange "to_range": "to", "bis";
-    /// Between a raw step and what the raw value 0 stands for.
-    From "counted_from": "from", "ab";
-    /// The node-ID in a formula.
-    NodeId "node_id": "node-ID", "Node-ID";
-    /// A bit without a name.
-    NamelessBit "nameless_bit": "bit", "Bit";
-    /// Bits without a name.
-    NamelessBits "nameless_bits": "bits", "Bits";
-    /// Kept with the communication parameters, in a table.
-    Communication "communication": "communication", "Kommunikation";
-    /// Kept with the application parameters, in a table.
-    Application "application": "application", "Anwendung";
-    /// Kept with the manufacturer parameters, in a table.
-    Manufacturer "manufacturer": "manufacturer", "Hersteller";
-    /// Kept by the device itself, in a table.
-    Remanent "remanent": "by itself", "von selbst";
-    /// Heading of what is kept with the communication parameters.
-    StoredCommunication "stored_communication": "1010h.2, communication parameters", "1010h.2, Kommunikationsparameter";
-    /// Heading of communication parameters of a device that saves all parameters together.
-    StoredWithAll "stored_with_all": "1010h.1, communication parameters with all others", "1010h.1, Kommunikationsparameter mit allen anderen";
-    /// Heading of what is kept with the application parameters.
-    StoredApplication "stored_application": "1010h.3, application parameters", "1010h.3, Anwendungsparameter";
-    /// Heading of what is kept with the manufacturer parameters.
-    StoredManufacturer "stored_manufacturer": "1010h.4 and above, manufacturer parameters", "1010h.4 und höher, Herstellerparameter";
-    /// Heading of what the device keeps by itself.
-    StoredRemanent "stored_remanent": "by the device itself", "vom Gerät selbst";
-    /// Heading of what is lost at power-off.
-    NotStored "not_stored": "not stored", "nicht gespeichert";
-    /// A category of a standard.
-    CategoryMandatory "mandatory": "mandatory", "verpflichtend";
-    /// A category of a standard.
-    CategoryOptional "optional": "optional", "optional";
-    /// A category of a standard.
-    CategoryConditional "conditional": "conditional", "bedingt";
-    /// An alias refuses what it cannot show.
-    OutsideAbort "outside_abort": "outside its range: abort", "außerhalb seines Bereichs: Abbruch";
-    /// An alias shows the nearest value.
-    OutsideSaturate "outside_saturate":
-        "outside its range: the nearest value",
-        "außerhalb seines Bereichs: der nächstgelegene Wert";
-    /// An alias shows the low bits.
-    OutsideWrap "outside_wrap": "outside its range: the low bits", "außerhalb seines Bereichs: die unteren Bits";
-    /// An alias rounds towards minus infinity.
-    RoundedDown "rounded_down": "rounded down", "nach unten gerundet";
-    /// An alias rounds to the nearest step.
-    RoundedNearest "rounded_nearest": "rounded to the nearest step", "auf den nächstgelegenen Schritt gerundet";
-    /// An alias rounds towards plus infinity.
-    RoundedUp "rounded_up": "rounded up", "nach oben gerundet";
-    /// An alias rounds towards zero.
-    RoundedZero "rounded_zero": "rounded towards zero", "zur Null hin gerundet";
+languages! {
+    /// English, also for languages whose texts are not known.
+    ENGLISH "en";
+    /// German.
+    GERMAN "de";
+}
+
+/// A language whose texts are known.
+#[derive(Clone, Copy)]
+pub struct Language {
+    code: &'static str,
+    texts: fn() -> &'static Texts,
+}
+
+impl Language {
+    /// A language with texts of its own. What they lack is English.
+    pub const fn new(code: &'static str, texts: fn() -> &'static Texts) -> Self {
+        Self { code, texts }
+    }
+
+    /// Its code: `de`.
+    pub const fn code(self) -> &'static str {
+        self.code
+    }
+
+    /// The language of a code such as `de` or `de-AT`.
+    pub fn of(code: &str) -> Self {
+        let is_of = |language: &&Self| {
+            code.strip_prefix(language.code).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+        };
+        Self::ALL.iter().find(is_of).copied().unwrap_or(Self::ENGLISH)
+    }
+
+    /// A text; the key itself where neither the language nor English has one, as English has none for the words of
+    /// specifications.
+    pub fn text(self, section: &str, key: &'static str) -> &'static str {
+        let own = (self.texts)().get(section, key);
+        own.or_else(|| (Self::ENGLISH.texts)().get(section, key)).unwrap_or(key)
+    }
+
+    /// Its texts, in the order of the file.
+    pub fn lines(self) -> impl Iterator<Item = &'static Line> {
+        (self.texts)().lines.iter()
+    }
+
+    /// The keys and texts of a section, in the order of the file.
+    pub fn section(self, section: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
+        self.lines().filter(move |line| line.section == section).map(|line| (line.key, &*line.text))
+    }
+
+    /// The words that running texts of any language have for something, in lower case.
+    pub fn words_of_all(key: &'static str) -> impl Iterator<Item = &'static str> {
+        let texts = Self::ALL.iter().filter_map(move |language| (language.texts)().get("running texts", key));
+        texts.flat_map(|words| words.split(", ")).filter(|word| !word.is_empty())
+    }
+
+    /// A number that was written with a decimal point, as the language writes it.
+    pub fn decimal(self, number: &str) -> String {
+        number.replace('.', self.text("language", "decimal_sign"))
+    }
+
+    /// A date: `2009-05-27`, in German `27.05.2009`.
+    pub fn date(self, date: Date) -> String {
+        let Date { year, month, day } = date;
+        let parts = [format!("{year:04}"), format!("{month:02}"), format!("{day:02}")];
+        filled(self.text("language", "date"), &[&parts[0], &parts[1], &parts[2]])
+    }
+}
+
+impl PartialEq for Language {
+    fn eq(&self, other: &Self) -> bool {
+        self.code == other.code
+    }
+}
+
+impl Eq for Language {}
+
+impl fmt::Debug for Language {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.code)
+    }
+}
+
+/// One text of a language.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Line {
+    /// Section of the file.
+    pub section: &'static str,
+    /// Key in the section.
+    pub key: &'static str,
+    /// The text.
+    pub text: String,
+}
+
+/// The texts of a language.
+#[derive(Debug)]
+pub struct Texts {
+    lines: Vec<Line>,
+    /// Positions in `lines`, by section and key.
+    places: BTreeMap<(&'static str, &'static str), usize>,
+}
+
+impl Texts {
+    /// Reads the texts of a file: a section is `[name]`, a text `key = text`; a line that begins with a space continues the
+    /// text before it, and one that begins with `#` is a comment.
+    pub fn read(file: &'static str) -> Self {
+        let (mut lines, mut section): (Vec<Line>, _) = (Vec::new(), "");
+        for line in file.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#')) {
+            if let Some(name) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
+                section = name;
+            } else if line.starts_with(' ')
+                && let Some(last) = lines.last_mut()
+            {
+                last.text.push(' ');
+                last.text.push_str(line.trim());
+            } else {
+                let (key, text) = line.split_once('=').unwrap_or((line, ""));
+                lines.push(Line { section, key: key.trim(), text: text.trim().to_owned() });
+            }
+        }
+        let places = lines.iter().enumerate().map(|(at, line)| ((line.section, line.key), at)).collect();
+        Self { lines, places }
+    }
+
+    fn get(&self, section: &str, key: &str) -> Option<&str> {
+        self.places.get(&(section, key)).map(|at| &*self.lines[*at].text)
+    }
+}
+
+/// A text with these parts in place of `{1}`, `{2}` and so on.
+pub fn filled(text: &str, parts: &[&str]) -> String {
+    let mut pieces = text.split('{');
+    let mut filled = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let numbered = piece.split_once('}').and_then(|(number, rest)| {
+            Some((parts.get(number.parse::<usize>().ok()?.checked_sub(1)?)?, rest))
+        });
+        match numbered {
+            Some((part, rest)) => {
+                filled.push_str(part);
+                filled.push_str(rest);
+            }
+            None => {
+                filled.push('{');
+                filled.push_str(piece);
+            }
+        }
+    }
+    filled
+}
+
+/// Names for the texts of a section of the language files.
+///
+/// ```
+/// use od_spec::wording::Language;
+///
+/// od_spec::texts! {
+///     /// Which part of an object is meant.
+///     enum Part in "departures" {
+///         Elements = "elements",
+///     }
+/// }
+/// assert_eq!(Part::Elements.text(Language::GERMAN), "Elemente: {1}");
+/// assert_eq!(Part::Elements.filled(Language::ENGLISH, &["unit"]), "elements: unit");
+/// ```
+#[macro_export]
+macro_rules! texts {
+    ($(#[$meta:meta])* $vis:vis enum $name:ident in $section:literal { $($variant:ident = $key:literal,)+ }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        $vis enum $name { $(#[doc = concat!("`", $key, "` of `", $section, "`.")] $variant,)+ }
+
+        #[allow(dead_code, reason = "not every section needs each of them")]
+        impl $name {
+            /// All of them.
+            $vis const ALL: &'static [Self] = &[$(Self::$variant,)+];
+
+            /// The key in the language files.
+            $vis const fn key(self) -> &'static str {
+                match self { $(Self::$variant => $key,)+ }
+            }
+
+            /// The text in a language.
+            $vis fn text(self, language: $crate::wording::Language) -> &'static str {
+                language.text($section, self.key())
+            }
+
+            /// The text in a language, with these parts in place of `{1}`, `{2}` and so on.
+            $vis fn filled(self, language: $crate::wording::Language, parts: &[&str]) -> String {
+                $crate::wording::filled(self.text(language), parts)
+            }
+        }
+    };
 }

@@ -43,7 +43,7 @@
 //! use od_spec::model::{DataType, PdoMapping, Storage};
 //! use od_spec::wording::{Language, Notation, Wording};
 //!
-//! let (eds, manual) = (Wording::english(Notation::Eds), Wording::manual(Language::German));
+//! let (eds, manual) = (Wording::english(Notation::Eds), Wording::manual(Language::GERMAN));
 //! assert_eq!(eds.pattern(DataType::Integer16, -1), "0xFFFF");
 //! assert_eq!(manual.pattern(DataType::Integer16, -1), "FFFFh");
 //! assert_eq!(eds.storage(Storage::Application), "stored with the application parameters");
@@ -60,7 +60,8 @@ mod range;
 mod tests;
 mod value;
 
-pub use language::{Language, Word};
+pub use facts::Word;
+pub use language::{Language, Line, Texts, filled};
 pub use number::Radix;
 pub use range::Limits;
 pub use value::{allowed, format_value};
@@ -97,6 +98,6 @@ impl Wording {
 
     /// Any other place; these are in English.
     pub const fn english(notation: Notation) -> Self {
-        Self { notation, language: Language::English }
+        Self { notation, language: Language::ENGLISH }
     }
 }

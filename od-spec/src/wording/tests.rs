@@ -1,11 +1,12 @@
 //! One value of each kind, in every notation.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
 
 use super::*;
 use crate::model::{
-    DataType, Departure, Dictionary, Entry, EntryId, ErratumKind, Fact, Index, Part, Storage, SubIndex,
-    System, Value,
+    DataType, Departure, Dictionary, Entry, EntryId, ErratumKind, ErrorKind, Fact, Index, Part, Storage,
+    SubIndex, System, Value,
 };
 use crate::source::SourceMap;
 
@@ -54,8 +55,8 @@ fn entry(device: &Dictionary, index: u16) -> &Entry {
 
 const ALL: [Wording; 6] = [
     Wording::english(Notation::Eds),
-    Wording::manual(Language::English),
-    Wording::manual(Language::German),
+    Wording::manual(Language::ENGLISH),
+    Wording::manual(Language::GERMAN),
     Wording::english(Notation::Rust),
     Wording::english(Notation::Json),
     Wording::english(Notation::Diagnostic),
@@ -225,9 +226,114 @@ fn facts_have_words_in_every_language() {
 #[test]
 fn dates_follow_the_language() {
     let date = crate::model::Date { year: 2009, month: 5, day: 27 };
-    assert_eq!(Language::German.date(date), "27.05.2009");
+    assert_eq!(Language::GERMAN.date(date), "27.05.2009");
     assert_eq!(Language::of("fr").date(date), "2009-05-27");
-    assert_eq!(Language::of("de-AT"), Language::German);
-    let known: Vec<Language> = Language::CODES.iter().map(|code| Language::of(code)).collect();
-    assert_eq!(known, [Language::English, Language::German]);
+    assert_eq!(Language::of("de-AT"), Language::GERMAN);
+    assert_eq!(Language::of("den"), Language::ENGLISH);
+}
+
+/// The places of a text that differ: `{1}`.
+fn placeholders(text: &str) -> BTreeSet<&str> {
+    text.split('{').skip(1).filter_map(|piece| Some(piece.split_once('}')?.0)).collect()
+}
+
+/// What is wrong with the texts of a language, beside those of English and the words of specifications.
+fn problems(language: Language) -> Vec<String> {
+    // Each language has phrases of its own there.
+    let of_all = |line: &&Line| line.section != "search";
+    let mut wanted: BTreeMap<(&str, &str), BTreeSet<&str>> = BTreeMap::new();
+    for line in Language::ENGLISH.lines().filter(of_all) {
+        wanted.insert((line.section, line.key), placeholders(&line.text));
+    }
+    let words = Fact::ALL.iter().map(|fact| ("kinds of facts", fact.word()));
+    let words = words.chain(ErrorKind::WORDS.iter().map(|word| ("kinds of errors", *word)));
+    let words = words.chain(ErratumKind::WORDS.iter().map(|word| ("kinds of errata", *word)));
+    wanted
+        .extend(words.chain(TABLES.map(|word| ("kinds of tables", word))).map(|key| (key, BTreeSet::new())));
+    let mut problems = Vec::new();
+    let mut seen = BTreeSet::new();
+    for line in language.lines().filter(of_all) {
+        let place = format!("[{}] {}", line.section, line.key);
+        if !seen.insert((line.section, line.key)) {
+            problems.push(format!("{place}: twice"));
+        }
+        match wanted.get(&(line.section, line.key)) {
+            None => problems.push(format!("{place}: unknown")),
+            Some(expected) if *expected != placeholders(&line.text) => {
+                problems.push(format!("{place}: not the same placeholders"));
+            }
+            Some(_) => {}
+        }
+    }
+    let missing = wanted.into_keys().filter(|key| !seen.contains(key));
+    problems.extend(missing.map(|(section, key)| format!("[{section}] {key}: missing")));
+    problems
+}
+
+/// The keys that fill tables.
+const TABLES: [&str; 18] = [
+    "axis",
+    "bits",
+    "commands",
+    "errors",
+    "flow",
+    "glossary",
+    "history",
+    "hysteresis",
+    "ladder",
+    "objects",
+    "overview",
+    "pdos",
+    "reactions",
+    "rows",
+    "states",
+    "timing",
+    "transitions",
+    "values",
+];
+
+#[test]
+fn every_language_has_every_text() {
+    for language in Language::ALL.iter().filter(|language| **language != Language::ENGLISH) {
+        assert_eq!(problems(*language), [""; 0], "languages/{}.txt", language.code());
+    }
+    // A form feed or a tab would be part of a text.
+    let control = |line: &&Line| line.text.contains(char::is_control) || line.key.contains(char::is_control);
+    assert_eq!(Language::ALL.iter().flat_map(|language| language.lines()).find(control), None);
+}
+
+#[test]
+fn every_mistake_of_a_language_is_found() {
+    static TEXTS: LazyLock<Texts> = LazyLock::new(|| {
+        let right = include_str!("../../languages/de.txt");
+        let wrong = right
+            .replacen("\ncommunication =", "\ncomunication =", 1)
+            .replacen("\nentry = Subindex {1}:", "\nentry = Subindex {3}:", 1)
+            .replacen("\nmandatory =", "\noptional =", 1)
+            .replacen("\nmin = ", "\nmin: ", 1);
+        Texts::read(wrong.leak())
+    });
+    assert_eq!(
+        problems(Language::new("xx", || &TEXTS)),
+        [
+            "[facts] comunication: unknown",
+            "[facts] optional: twice",
+            "[departures] entry: not the same placeholders",
+            "[kinds of facts] min: kleinster Wert: unknown",
+            "[facts] communication: missing",
+            "[facts] mandatory: missing",
+            "[kinds of facts] min: missing",
+        ]
+    );
+}
+
+#[test]
+fn texts_are_read_line_by_line_and_filled_in() {
+    static TEXTS: LazyLock<Texts> =
+        LazyLock::new(|| Texts::read("# none\n[facts]\nto_range = up\n  to\n\n[language]\ndate = {2}/{1}\n"));
+    let language = Language::new("xx", || &TEXTS);
+    let word = Wording::manual(language).word(Word::ToRange);
+    assert_eq!((word, language.text("facts", "not_stored")), ("up to", "not stored"));
+    assert_eq!(language.date(crate::model::Date { year: 2009, month: 5, day: 27 }), "05/2009");
+    assert_eq!(filled("{2} {x} { {1}{1} {3}", &["{2}", "b"]), "b {x} { {2}{2} {3}");
 }

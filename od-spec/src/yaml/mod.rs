@@ -4,6 +4,7 @@
 //! decided by the place that expects it (see [`crate::scalar`]), so that `no`, `1.10` and `0x6040` never
 //! change their meaning behind the author's back.
 
+pub(crate) mod gaps;
 mod lenient;
 
 use std::collections::{BTreeMap, BTreeSet};

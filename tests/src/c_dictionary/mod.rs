@@ -9,7 +9,7 @@ mod trial;
 use std::fs;
 use std::path::Path;
 
-use od_gen::c::{self, Kind};
+use od_c::{self as c, Kind};
 use od_gen::{Artifact, Provenance};
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};

@@ -1,6 +1,6 @@
 //! Compares a file with copies of itself in which one key has another value: the difference is told, of its weight, and no other.
 
-use od_gen::diff::{Change, Class, Question, Scope, compare};
+use od_diff::{Change, Class, Question, Scope, compare};
 use od_spec::model::{Fact, Index, System};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};

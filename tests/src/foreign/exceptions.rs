@@ -1,6 +1,6 @@
 //! Differences that are as they should be, each with its reason.
 
-use od_gen::yaml::{Place, Repair};
+use od_import::yaml::{Place, Repair};
 use od_spec::ascii::transliterate;
 use od_spec::model::{DataType, Dictionary, EntryId, Fact, Index, Object, SubIndex, Value};
 

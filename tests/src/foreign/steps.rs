@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use od_gen::eds::write_eds;
-use od_gen::import::{Imported, import};
+use od_formats::eds::write_eds;
+use od_import::{Imported, import};
 use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::eds::Document;
 use od_spec::encoding::encode;

@@ -1,6 +1,6 @@
 //! What is demanded of every EDS and DCF, however broken.
 
-use od_gen::import::import;
+use od_import::import;
 use od_spec::eds::Document;
 use od_spec::source::{FileId, SourceMap};
 use od_spec::{Compiled, NoFiles, Strictness, add_source, compile_as, fix};

@@ -1,7 +1,9 @@
 //! What is demanded of findings, whatever text they are about: their places, and how they read in every format.
 
+use od_formats::findings::{Findings, github, json, sarif};
+use od_reference::explanation;
 use od_spec::diag::Diagnostics;
-use od_spec::diag::render::{Findings, Format, render, sarif};
+use od_spec::diag::render::{Format, render};
 use od_spec::source::{SourceMap, Span};
 use serde_json::Value;
 
@@ -12,10 +14,10 @@ pub(super) fn wrong(
     sources: &SourceMap,
 ) -> Vec<(&'static str, String)> {
     let count = diagnostics.iter().count();
-    let text = |format| render(diagnostics, sources, format, false);
-    let human = text(Format::Human);
-    let [short, json, github] = [Format::Short, Format::Json, Format::Github].map(text);
-    let document = sarif("0.0.0", &[Findings { name, diagnostics, sources }]);
+    let [human, short] =
+        [Format::Human, Format::Short].map(|format| render(diagnostics, sources, format, false));
+    let (json, github) = (json(diagnostics, sources), github(diagnostics, sources));
+    let document = sarif("0.0.0", explanation, &[Findings { name, diagnostics, sources }]);
     let mut wrong = places(diagnostics, sources);
     for (format, text) in
         [("human", &human), ("short", &short), ("json", &json), ("github", &github), ("sarif", &document)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::eds;
+use od_formats::eds;
 use od_spec::diag::{Diagnostics, Severity};
 use od_spec::model::{Dictionary, System, Value};
 use od_spec::source::{SourceMap, Spanned};

@@ -2,8 +2,9 @@
 
 use std::io::{Error, ErrorKind};
 
-use od_gen::docs::{self, Format, Templates};
-use od_gen::{eds, json, rust};
+use docs_gen::{self as docs, Format, Templates};
+use od_formats::{eds, json};
+use od_gen::rust;
 use od_spec::diag::{Diagnostics, Severity};
 use od_spec::model::{Dictionary, System};
 use od_spec::source::{FileId, SourceMap};

@@ -1,6 +1,6 @@
 //! What is demanded of every set of templates, however wrong.
 
-use od_gen::docs::{self, Format, Options, TemplateError, Templates};
+use docs_gen::{self as docs, Format, Options, TemplateError, Templates};
 use od_spec::model::System;
 
 use super::bounds::caught;

@@ -1,7 +1,7 @@
 //! What is demanded of every XDD and XDC, however broken.
 
-use od_gen::eds::write_eds;
-use od_gen::xdd::write_xdd;
+use od_formats::eds::write_eds;
+use od_formats::xdd::write_xdd;
 use od_spec::source::{FileId, SourceMap};
 use od_spec::{Compiled, NoFiles, Strictness, add_source, compile_as};
 

@@ -1,4 +1,4 @@
-//! The SLCAN driver of the demo firmware, on the host: it hears and says the same lines as `od_gen::slcan`.
+//! The SLCAN driver of the demo firmware, on the host: it hears and says the same lines as `od_bus::slcan`.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -6,7 +6,7 @@ use std::convert::Infallible;
 
 use embedded_can::nb::Can;
 use firmware_glue::frame::{CanId, Frame};
-use od_gen::slcan::{self, Adapter};
+use od_bus::slcan::{self, Adapter};
 use slcan_of_demo::{Slcan, Wire};
 
 #[expect(unreachable_pub, reason = "a module of a firmware")]
@@ -56,7 +56,7 @@ fn hear(text: &str) -> (String, Vec<Frame>) {
     (Line::said(&line), frames)
 }
 
-/// What `od_gen::slcan` answers to it.
+/// What `od_bus::slcan` answers to it.
 fn expected(text: &str) -> (String, Vec<Frame>) {
     let (mut adapter, mut answers, mut frames) = (Adapter::new(), Vec::new(), Vec::new());
     for line in text.split_terminator('\r') {

@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking, and counts")]
 
 use firmware_glue::{Constrained, Dictionary};
-use od_gen::runtime::{self, LiveDictionary};
+use od_bus::runtime::{self, LiveDictionary};
 use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
 use od_spec::diag::Diagnostics;
 use od_tests::fuzz::Random;

@@ -5,7 +5,7 @@
 use firmware_glue::frame::{CanId, Frame};
 use firmware_glue::table::Place;
 use firmware_glue::{Dictionary, pdo};
-use od_gen::trace::{Decoder, Node};
+use od_bus::trace::{Decoder, Node};
 use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
 use od_tests::fuzz::Random;
 use od_tests::{compile_clean, root};

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use firmware_glue::Dictionary;
-use od_gen::runtime::{self, LiveDictionary};
+use od_bus::runtime::{self, LiveDictionary};
 use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
 use od_spec::diag::Diagnostics;
 use od_tests::c_dictionary::{Compiler, Host, Reference, Trial, Written, compare, write, write_text};

@@ -254,7 +254,7 @@ fn constants_are_what_the_dump_says() {
     for path in SPECIFICATIONS {
         let directory = directory(&upper(path));
         let Written { system, devices } = write(path, &directory).unwrap();
-        let dump: Json = serde_json::from_slice(&od_gen::json::dump(&system, &[])).unwrap();
+        let dump: Json = serde_json::from_slice(&od_formats::json::dump(&system, &[])).unwrap();
         for device in dump["devices"].as_array().unwrap() {
             let key = device["key"].as_str().unwrap();
             assert!(devices.iter().any(|device| device == key));

@@ -1,7 +1,7 @@
 //! Defaults of bit fields are told by the names of their bits.
 
 use super::links::{assert_has, page};
-use od_gen::docs::Format;
+use docs_gen::Format;
 
 #[test]
 fn a_default_of_bits_is_told_by_their_names() {

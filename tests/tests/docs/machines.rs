@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::docs;
+use docs_gen as docs;
 use serde_json::Value;
 
 use super::{FULLMO, PITCH, compile_clean};

@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use od_gen::docs::{self, Format, Templates};
+use docs_gen::{self as docs, Format, Templates};
 use od_spec::model::System;
 use od_tests::compile_clean;
 

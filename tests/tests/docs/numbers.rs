@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use od_gen::docs::{self, Format, Templates};
+use docs_gen::{self as docs, Format, Templates};
 use serde_json::Value;
 
 use super::links::{assert_has, page};

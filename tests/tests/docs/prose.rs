@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::docs::{self, Format, Templates};
+use docs_gen::{self as docs, Format, Templates};
 use od_gen::rust::{self, Provenance};
 use od_spec::diag::Diagnostics;
 use od_spec::model::{EntryId, Index, ProseKind, SubIndex};
@@ -162,7 +162,7 @@ fn warnings_are_in_the_firmware() {
 fn warnings_are_in_the_eds() {
     let system = compile_clean(PROSE).unwrap();
     let device = system.devices.iter().find(|device| device.key == "two").unwrap();
-    let eds = String::from_utf8(od_gen::eds::write_eds(&system, device)).unwrap();
+    let eds = String::from_utf8(od_formats::eds::write_eds(&system, device)).unwrap();
     assert_in_order(
         &eds,
         &["; Warning: The axis moves at once.\r\n[2002]", "; Warning: The plate is hot.\r\n[2005]"],

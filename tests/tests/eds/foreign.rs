@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use od_tests::foreign::{Checked, Step, check};
 use od_tests::root;
 
-const DIRECTORIES: [&str; 3] = ["tests/eds", "od-gen/tests/cli/eds", "generated/eds"];
+const DIRECTORIES: [&str; 3] = ["tests/eds", "od-gen/cli/tests/cli/eds", "generated/eds"];
 
 fn files() -> Vec<PathBuf> {
     let entries = DIRECTORIES.iter().flat_map(|directory| std::fs::read_dir(root().join(directory)).unwrap());

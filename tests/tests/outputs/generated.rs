@@ -1,6 +1,6 @@
 //! What is generated and checked in is current, and the same on every run.
 
-use od_gen::{Selection, artifacts};
+use od_formats::{Selection, artifacts};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
 use od_tests::{compile_clean, generate, shipped};
@@ -56,7 +56,7 @@ fn output_does_not_depend_on_run_file_name_line_ends_or_order_of_objects() {
 fn an_independent_ini_reader_sees_every_section_and_value() {
     let system = compile_clean(PITCH).unwrap();
     for device in &system.devices {
-        let text = String::from_utf8(od_gen::eds::write_eds(&system, device)).unwrap();
+        let text = String::from_utf8(od_formats::eds::write_eds(&system, device)).unwrap();
         let options =
             ini::ParseOption { enabled_quote: false, enabled_escape: false, ..ini::ParseOption::default() };
         let read = ini::Ini::load_from_str_opt(&text, options).unwrap();
@@ -78,7 +78,7 @@ fn an_independent_ini_reader_sees_every_section_and_value() {
 fn an_eds_is_plain_ascii_with_crlf_and_short_lines() {
     for system in [compile_clean(PITCH).unwrap(), compile_clean(EVERYTHING).unwrap()] {
         for device in &system.devices {
-            let text = String::from_utf8(od_gen::eds::write_eds(&system, device)).unwrap();
+            let text = String::from_utf8(od_formats::eds::write_eds(&system, device)).unwrap();
             assert!(text.is_ascii());
             assert!(text.ends_with("\r\n") && !text.contains("\r\n\r\n\r\n"));
             assert!(text.replace("\r\n", "").bytes().all(|byte| byte >= b' '));

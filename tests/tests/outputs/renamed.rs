@@ -3,9 +3,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use od_gen::docs::{self, Format, Templates};
+use docs_gen::{self as docs, Format, Templates};
+use od_formats::{Selection, artifacts};
+use od_gen::Artifact;
 use od_gen::rust::{self, Provenance};
-use od_gen::{Artifact, Selection, artifacts};
 use od_spec::diag::Diagnostics;
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};

@@ -3,7 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use od_gen::concise;
+use od_formats::concise;
 use od_generated::pmc::Pmc;
 use od_spec::diag::Diagnostics;
 use od_spec::model::{Dictionary, EntryId, Value, Write};

@@ -150,7 +150,7 @@ fn in_full_is_said_the_same_as_under_pdos() {
     assert_eq!(pdos(&made), pdos(&in_full));
     assert_eq!(made.devices[0].pdos.len(), 2);
     let eds = |system: &System| {
-        let bytes = od_gen::eds::write_eds(system, &system.devices[0]);
+        let bytes = od_formats::eds::write_eds(system, &system.devices[0]);
         String::from_utf8(bytes).unwrap().lines().map(ToOwned::to_owned).collect::<Vec<_>>()
     };
     for (line, (made, in_full)) in eds(&made).iter().zip(&eds(&in_full)).enumerate() {

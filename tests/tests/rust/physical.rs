@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use docs_gen::{self as docs, Format, Templates};
 use firmware_glue::{AbortCode, Constrained as _, Dictionary as _, OutOfRange, Quantity as _, Special};
-use od_gen::docs::{self, Format, Templates};
 use od_spec::diag::Diagnostics;
 use od_spec::model::{EntryId, Index, SubIndex, System, Value};
 use od_spec::source::{SourceMap, Spanned};
@@ -28,7 +28,7 @@ const fn id(index: u16) -> EntryId {
 
 fn eds() -> String {
     let system = system();
-    String::from_utf8(od_gen::eds::write_eds(&system, &system.devices[0])).unwrap().replace("\r\n", "\n")
+    String::from_utf8(od_formats::eds::write_eds(&system, &system.devices[0])).unwrap().replace("\r\n", "\n")
 }
 
 #[test]
@@ -86,7 +86,8 @@ fn an_eds_that_is_read_has_the_units() {
         assert_eq!(limits(&read, index), limits(&system(), index), "{index:04X}");
     }
     // And as a specification.
-    let written = od_gen::yaml::specification(&read, &read.devices[0], &od_gen::yaml::Options::default());
+    let written =
+        od_import::yaml::specification(&read, &read.devices[0], &od_import::yaml::Options::default());
     let text = written.unwrap().text;
     for line in [
         "offset: -40",
@@ -104,7 +105,7 @@ fn an_eds_that_is_read_has_the_units() {
 #[test]
 fn the_dump_has_the_offset() {
     let system = system();
-    let dump: serde_json::Value = serde_json::from_slice(&od_gen::json::dump(&system, &[])).unwrap();
+    let dump: serde_json::Value = serde_json::from_slice(&od_formats::json::dump(&system, &[])).unwrap();
     let offset = |name: &str| {
         let units = dump["units"].as_array().unwrap();
         units.iter().find(|unit| unit["name"] == name).unwrap()["offset"].clone()
@@ -319,6 +320,6 @@ fn bits_by_name_become_raw_values() {
     assert_eq!(raw(0x2001, 0), i128::from(0x8010_u16.cast_signed()), "the sign of an INTEGER16");
     assert_eq!(raw(0x2002, 0), 0x0151);
     assert_eq!([raw(0x2003, 1), raw(0x2003, 2)], [1, -0x8000]);
-    let eds = od_gen::eds::write_eds(&system, &system.devices[0]);
+    let eds = od_formats::eds::write_eds(&system, &system.devices[0]);
     assert!(String::from_utf8(eds).unwrap().contains("DefaultValue=-32752\r\n"));
 }

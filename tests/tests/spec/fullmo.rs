@@ -164,7 +164,7 @@ fn what_the_manual_does_not_say_is_marked_as_the_standards_word() {
 #[test]
 fn the_eds_does_not_promise_the_standards_defaults() {
     let system = fullmo();
-    let eds = String::from_utf8(od_gen::eds::write_eds(&system, &system.devices[0])).unwrap();
+    let eds = String::from_utf8(od_formats::eds::write_eds(&system, &system.devices[0])).unwrap();
     assert!(eds.contains("=24 defaults are left out because only the standard states them"), "{eds}");
     assert!(!eds.contains("defaults of stored or locked parameters"));
     // What it starts with is chosen here, and nobody promises it.

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use od_gen::eds::write_eds;
+use od_formats::eds::write_eds;
 use od_gen::source::FileLoader;
 use od_spec::source::SourceMap;
 use od_spec::{compile, layout};
@@ -36,7 +36,7 @@ fn outputs(path: &Path, text: &str) -> Option<Vec<Vec<u8>>> {
     let mut sources = SourceMap::new();
     let root = sources.add(path.to_string_lossy(), text);
     let system = compile(&mut sources, root, &mut FileLoader::default()).system?;
-    let dump = od_gen::json::dump(&system, &[]);
+    let dump = od_formats::json::dump(&system, &[]);
     let eds = system.devices.iter().map(|device| write_eds(&system, device));
     Some(std::iter::once(dump).chain(eds).collect())
 }

@@ -6,9 +6,10 @@ use std::fs;
 use std::path::Path;
 
 use jsonschema::Validator;
-use od_gen::parameters::{About, write};
+use od_import::parameters::{About, write};
+use od_reference::{parameter_schema, plant_schema_of};
+use od_spec::Commissioning;
 use od_spec::model::{Dictionary, System, TypeKind, Value};
-use od_spec::{Commissioning, parameter_schema, plant_schema_of};
 use od_tests::{compile_clean, compile_with_sources, root};
 
 use crate::typed_yaml::json;

@@ -41,7 +41,7 @@ fn root() -> PathBuf {
 }
 
 fn validator() -> Validator {
-    let schema: Value = serde_json::from_str(&od_spec::json_schema()).expect("JSON");
+    let schema: Value = serde_json::from_str(&od_reference::json_schema()).expect("JSON");
     jsonschema::draft7::new(&schema).expect("a schema")
 }
 
@@ -197,7 +197,7 @@ fn misshapen_cases_are_refused() {
 
 /// The pieces of YAML in the language reference.
 fn yaml_of_reference() -> Vec<String> {
-    let text = od_spec::reference();
+    let text = od_reference::reference();
     text.split("```yaml\n").skip(1).filter_map(|rest| Some(rest.split_once("```")?.0.to_owned())).collect()
 }
 
@@ -251,7 +251,7 @@ fn check_plant(piece: &str) {
     let read = plant(&mut sources, file, &mut Pitch);
     assert!(read.diagnostics.is_empty(), "{piece}: {:?}", read.diagnostics);
     assert!(read.plant.is_some_and(|plant| plant.nodes.len() == 1200));
-    let schema = serde_json::from_str(&od_spec::plant_schema()).expect("JSON");
+    let schema = serde_json::from_str(&od_reference::plant_schema()).expect("JSON");
     assert_eq!(problems(&jsonschema::draft7::new(&schema).expect("a schema"), piece), Vec::<String>::new());
 }
 
@@ -267,13 +267,13 @@ fn check_parameters(piece: &str) {
     read.check_device(&system, oven, &mut diagnostics);
     let count = assign_layers(&system, oven, 5, &[read.layer], &mut diagnostics).values.len();
     assert!(diagnostics.is_empty() && count > 5, "{count} of {piece}: {diagnostics:?}");
-    let schema = serde_json::from_str(&od_spec::parameter_schema(&system, oven)).expect("JSON");
+    let schema = serde_json::from_str(&od_reference::parameter_schema(&system, oven)).expect("JSON");
     assert_eq!(problems(&jsonschema::draft7::new(&schema).expect("a schema"), piece), Vec::<String>::new());
 }
 
 #[test]
 fn examples_of_keys_fit_them() {
-    let schema: Value = serde_json::from_str(&od_spec::json_schema()).unwrap();
+    let schema: Value = serde_json::from_str(&od_reference::json_schema()).unwrap();
     check_examples(&schema, &schema);
     for table in schema["definitions"].as_object().unwrap().values() {
         check_examples(table, &schema);
@@ -295,12 +295,12 @@ fn check_examples(table: &Value, schema: &Value) {
 
 #[test]
 fn the_checked_in_schema_is_current() {
-    assert_current("od-spec/schema/od.schema.json", &od_spec::json_schema());
+    assert_current("od-spec/schema/od.schema.json", &od_reference::json_schema());
 }
 
 #[test]
 fn the_checked_in_reference_is_current() {
-    assert_current("docs/language.md", &od_spec::reference());
+    assert_current("docs/language.md", &od_reference::reference());
 }
 
 fn assert_current(path: &str, text: &str) {

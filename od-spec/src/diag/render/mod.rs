@@ -1,12 +1,7 @@
-//! Diagnostics as text: for people, as one line each, and for programs.
+//! Diagnostics as text for people: with their source lines, and as one line each.
 
-mod github;
 mod human;
-mod json;
-mod sarif;
 mod short;
-
-pub use sarif::{Findings, sarif};
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -22,10 +17,6 @@ pub enum Format {
     Human,
     /// `file:line:column: error[OD0301]: message`.
     Short,
-    /// One JSON object per line.
-    Json,
-    /// One workflow command of GitHub Actions per line, which shows the message beside the source line.
-    Github,
 }
 
 /// Messages of one code that people are shown with their source lines; a number tells of the others.
@@ -45,8 +36,6 @@ pub fn render(diagnostics: &Diagnostics, sources: &SourceMap, format: Format, co
         let (text, end) = match format {
             Format::Human => (human::human(diagnostic, sources, colour), "\n\n"),
             Format::Short => (short::short(diagnostic, sources), "\n"),
-            Format::Json => (json::json(diagnostic, sources), "\n"),
-            Format::Github => (github::command(diagnostic, sources), "\n"),
         };
         out.push_str(&text);
         out.push_str(end);

@@ -1,13 +1,8 @@
 //! The rules about plants, one file each, named after the fact that they establish.
 
-mod cob_ids_have_one_sender;
-mod heartbeats_come_in_time;
-mod node_ids_differ;
-mod pdos_have_two_ends;
-mod serial_numbers_differ;
-
 use super::{Bus, Plant};
 use crate::diag::{Code, Diagnostics};
+use crate::rules::rules;
 
 /// A rule about plants.
 pub(crate) struct Rule {
@@ -25,14 +20,13 @@ pub(crate) enum Check {
     Plant(fn(&Plant, &mut Diagnostics)),
 }
 
-/// All rules.
-pub(crate) static RULES: &[Rule] = &[
-    node_ids_differ::RULE,
-    cob_ids_have_one_sender::RULE,
-    pdos_have_two_ends::RULE,
-    heartbeats_come_in_time::RULE,
-    serial_numbers_differ::RULE,
-];
+rules! { Rule:
+    node_ids_differ,
+    cob_ids_have_one_sender,
+    pdos_have_two_ends,
+    heartbeats_come_in_time,
+    serial_numbers_differ,
+}
 
 /// The codes of all rules.
 pub(crate) fn codes() -> impl Iterator<Item = &'static Code> {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::diag::Diagnostics;
-use crate::shipped::LIBRARIES;
+use crate::library::shipped::LIBRARIES;
 use crate::source::SourceMap;
 use crate::yaml::parse;
 

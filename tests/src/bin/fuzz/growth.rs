@@ -1,7 +1,7 @@
 //! The work that a file makes grows with its size, whatever is in it many times. The bytes that are asked for count it: they are the
 //! same in every run.
 
-use od_gen::import::import;
+use od_import::import;
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, Strictness, add_source, compile_as, fix};
 

@@ -8,7 +8,7 @@ use od_tests::shipped::in_one_file;
 use od_tests::{Failure, root};
 
 /// The EDS and DCF of this repository: those that try the rules, those of the shipped devices, and what the commands are shown with.
-const EDS: [&str; 3] = ["tests/eds", "generated/eds", "od-gen/tests/cli/eds"];
+const EDS: [&str; 3] = ["tests/eds", "generated/eds", "od-gen/cli/tests/cli/eds"];
 /// Its specifications and libraries.
 const SPECIFICATIONS: [&str; 3] = ["od-spec/profiles", "tests/ui", "tests/shared"];
 /// The shipped specifications, which stand in several files.

@@ -1,7 +1,9 @@
 //! The documents in a browser.
 
+use docs_gen as docs;
+use od_formats::json;
+use od_gen::Artifact;
 use od_gen::files::write_all;
-use od_gen::{Artifact, docs, json};
 use od_tests::{Failure, compile_clean, root};
 
 use crate::hostile;

@@ -1,7 +1,7 @@
 //! A DCF with a setting in every data type, for the foreign readers.
 
+use od_formats::eds::write_dcf;
 use od_gen::Artifact;
-use od_gen::eds::write_dcf;
 use od_gen::files::write_all;
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};

@@ -1,8 +1,9 @@
 //! Documents whose texts try to command the browser, each beside the same one with plain texts.
 
-use od_gen::docs::{self, Format, Templates};
+use docs_gen::{self as docs, Format, Templates};
+use od_formats::json;
+use od_gen::Artifact;
 use od_gen::files::{Existing, write_set};
-use od_gen::{Artifact, json};
 use od_spec::model::System;
 use od_tests::plant::{TEXTS, accepted, compiled, planted, sites, text_at};
 use od_tests::{Failure, root};

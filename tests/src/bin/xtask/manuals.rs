@@ -1,7 +1,8 @@
 //! The manuals on paper.
 
+use docs_gen as docs;
+use od_gen::Artifact;
 use od_gen::files::write_all;
-use od_gen::{Artifact, docs};
 use od_tests::{Failure, compile_clean, root};
 
 use crate::parts::Amount;

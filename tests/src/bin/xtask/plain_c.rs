@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use od_gen::runtime::{self, LiveDictionary};
+use od_bus::runtime::{self, LiveDictionary};
 use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
 use od_spec::diag::Diagnostics;
 use od_tests::c_dictionary::{

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use od_formats::{Selection, artifacts};
 use od_gen::files::write_all;
-use od_gen::{Selection, artifacts};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_tests::generate::SPECS;
@@ -123,7 +123,7 @@ pub(crate) fn xdd_structure(runner: &mut Runner) -> Result<(), Failure> {
     let odgen = beside("odgen")?;
     let odgen = odgen.to_string_lossy();
     let mut files =
-        vec!["--odgen".to_owned(), odgen.into_owned(), "od-gen/tests/cli/eds/tank.xdd".to_owned()];
+        vec!["--odgen".to_owned(), odgen.into_owned(), "od-gen/cli/tests/cli/eds/tank.xdd".to_owned()];
     for entry in std::fs::read_dir(root().join(FOLDER).join("xdd"))? {
         files.push(entry?.path().to_string_lossy().into_owned());
     }

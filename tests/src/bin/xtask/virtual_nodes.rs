@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
+use od_formats::{Selection, artifacts};
 use od_gen::files::write_all;
-use od_gen::{Selection, artifacts};
 use od_tests::{Failure, compile_clean, root};
 
 use crate::runner::Runner;

@@ -364,11 +364,11 @@ fn the_files_are_the_same_in_every_run() {
     let make = || {
         let mut diagnostics = od_spec::diag::Diagnostics::new();
         let provenance = od_gen::Provenance::of(&sources);
-        od_gen::c::artifacts(
+        od_c::artifacts(
             &system,
             system.devices.iter(),
             &provenance,
-            &[od_gen::c::Kind::CanopenNode],
+            &[od_c::Kind::CanopenNode],
             &mut diagnostics,
         )
     };

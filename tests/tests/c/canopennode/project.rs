@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use od_c::{self as c, Kind};
+use od_formats::json;
 use od_gen::Provenance;
-use od_gen::c::{self, Kind};
-use od_gen::json;
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;

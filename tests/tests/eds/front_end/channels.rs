@@ -1,7 +1,7 @@
 //! Dynamic channels: from a specification into an EDS, and from there back.
 
-use od_gen::eds::write_eds;
-use od_gen::import::import;
+use od_formats::eds::write_eds;
+use od_import::import;
 use od_spec::source::SourceMap;
 
 use super::{compiled, device};
@@ -65,7 +65,7 @@ fn they_come_back_from_an_eds() {
     let again = compiled("plc.od.yaml", &imported.text).0.system.unwrap();
     assert_eq!(String::from_utf8(write_eds(&again, &again.devices[0])).unwrap(), eds);
     let node = od_spec::Commissioning::of_node(&system.devices[0], 5);
-    let dcf = od_gen::eds::write_dcf(&system, &system.devices[0], &node, "plc.dcf");
+    let dcf = od_formats::eds::write_dcf(&system, &system.devices[0], &node, "plc.dcf");
     assert_eq!(channels("plc.dcf", &String::from_utf8(dcf).unwrap()), expected);
 }
 
@@ -83,8 +83,8 @@ fn documents_show_them_in_a_table() {
 }
 
 fn docs_gen_context(system: &od_spec::model::System) -> serde_json::Value {
-    let options = od_gen::docs::options(system, &[], None);
-    serde_json::from_slice(&od_gen::docs::dump_context(system, &options)).unwrap()
+    let options = docs_gen::options(system, &[], None);
+    serde_json::from_slice(&docs_gen::dump_context(system, &options)).unwrap()
 }
 
 /// A file as the world may write it, with what of it is kept.

@@ -1,6 +1,6 @@
 //! Write conditions: an EDS does not have the key of its device.
 
-use od_gen::eds::write_eds;
+use od_formats::eds::write_eds;
 
 use super::compiled;
 

@@ -1,7 +1,7 @@
 //! Object links: from a specification into an EDS, and from there back.
 
-use od_gen::eds::{write_dcf, write_eds};
-use od_gen::import::import;
+use od_formats::eds::{write_dcf, write_eds};
+use od_import::import;
 use od_spec::Commissioning;
 use od_spec::model::{Dictionary, Index};
 use od_spec::source::SourceMap;

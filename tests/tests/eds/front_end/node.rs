@@ -1,8 +1,8 @@
 //! What a DCF says about its node beside the values: names in the application, and files of DOMAINs.
 
-use od_gen::eds::write_dcf;
-use od_gen::import::import;
-use od_gen::json::{dump, dump_node};
+use od_formats::eds::write_dcf;
+use od_formats::json::{dump, dump_node};
+use od_import::import;
 use od_spec::model::{EntryId, Index, SubIndex};
 use od_spec::source::SourceMap;
 use od_spec::{Commissioning, Denoted};
@@ -69,7 +69,7 @@ fn a_dcf_made_of_a_dcf_keeps_them() {
     let again = compiled("pump.dcf", &text).0.system.unwrap();
     assert_eq!(write_dcf(&again, &again.devices[0], &read, "pump.dcf"), dcf);
     // The device itself knows nothing of them.
-    let eds = String::from_utf8(od_gen::eds::write_eds(&system, &system.devices[0])).unwrap();
+    let eds = String::from_utf8(od_formats::eds::write_eds(&system, &system.devices[0])).unwrap();
     assert!(!eds.contains("Denotation") && !eds.contains("File="), "{eds}");
 }
 

@@ -100,7 +100,7 @@ fn a_node_comes_back() {
     let pmc = system.device("pmc").unwrap();
     written.values = od_spec::assign(&system, pmc, 5, &[setting], &mut diagnostics);
     assert!(!diagnostics.has_errors());
-    let dcf = String::from_utf8(od_gen::eds::write_dcf(&system, pmc, &written, "axis.dcf")).unwrap();
+    let dcf = String::from_utf8(od_formats::eds::write_dcf(&system, pmc, &written, "axis.dcf")).unwrap();
     let read = super::compiled("axis.dcf", &dcf).0.node.unwrap();
     assert_eq!(read, written);
 }

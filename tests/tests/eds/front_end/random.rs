@@ -103,9 +103,9 @@ fn go_through(name: &str, bytes: &[u8]) {
         assert!(strictness == Strictness::Standard || compiled.system.is_some());
         let Some(system) = compiled.system else { continue };
         let device = &system.devices[0];
-        let eds = od_gen::eds::write_eds(&system, device);
+        let eds = od_formats::eds::write_eds(&system, device);
         assert!(eds.is_ascii());
-        let _ = od_gen::json::dump(&system, &[]);
+        let _ = od_formats::json::dump(&system, &[]);
         let _ = od_gen::rust::tokens(&system, device, &mut od_spec::diag::Diagnostics::new());
     }
 }

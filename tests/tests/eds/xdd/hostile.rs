@@ -1,6 +1,6 @@
 //! Files that are cut off, changed by chance, deep or long: a message or a model, and never a panic.
 
-use od_gen::xdd::write_xdd;
+use od_formats::xdd::write_xdd;
 use od_tests::compile_clean;
 use proptest::prelude::*;
 

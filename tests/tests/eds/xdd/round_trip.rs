@@ -1,7 +1,7 @@
 //! Specification → XDD → model, and DCF → XDC → DCF: everything that an EDS carries comes back, and texts in every language.
 
-use od_gen::eds::{write_dcf, write_eds};
-use od_gen::xdd::{write_xdc, write_xdd};
+use od_formats::eds::{write_dcf, write_eds};
+use od_formats::xdd::{write_xdc, write_xdd};
 use od_spec::diag::Diagnostics;
 use od_spec::model::{Dictionary, Object, System};
 use od_spec::model::{EntryId, Index, SubIndex};

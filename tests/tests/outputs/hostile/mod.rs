@@ -4,9 +4,11 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::diff::{self, Question, Scope, compare};
+use od_diff::{self as diff, Question, Scope, compare};
+use od_formats::findings::{self, Findings, sarif};
+use od_reference::explanation;
 use od_spec::diag::codes;
-use od_spec::diag::render::{Findings, Format, render, sarif};
+use od_spec::diag::render::{Format, render};
 use od_spec::source::SourceMap;
 use od_spec::visible::is_hidden;
 use od_spec::{Compiled, NoFiles, compile};
@@ -32,15 +34,11 @@ const LIBRARIES: [KeyName; 8] = [
 fn check_messages(sources: &SourceMap, compiled: &Compiled, complaints: &mut Vec<String>) {
     let all = &compiled.diagnostics;
     let findings = Findings { name: "\u{9b}2J", diagnostics: all, sources };
-    let mut texts = vec![("SARIF", sarif("1", &[findings]))];
-    for (name, format) in [
-        ("human", Format::Human),
-        ("short", Format::Short),
-        ("JSON", Format::Json),
-        ("GitHub", Format::Github),
-    ] {
-        texts.push((name, render(all, sources, format, false)));
-    }
+    let mut texts = vec![("SARIF", sarif("1", explanation, &[findings]))];
+    texts.push(("human", render(all, sources, Format::Human, false)));
+    texts.push(("short", render(all, sources, Format::Short, false)));
+    texts.push(("JSON", findings::json(all, sources)));
+    texts.push(("GitHub", findings::github(all, sources)));
     for (name, text) in texts {
         if let Some(c) = text.chars().find(|c| is_hidden(*c) && *c != '\n') {
             complaints.push(format!("{name} shows {c:?}"));

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use docs_gen as docs;
+use od_formats::{Selection, artifacts};
 use od_gen::Artifact;
 use od_gen::rust::{self, Provenance};
-use od_gen::{Selection, artifacts, docs};
 use od_spec::diag::Diagnostics;
 use od_spec::model::System;
 use od_spec::source::SourceMap;

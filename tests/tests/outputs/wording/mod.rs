@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use od_gen::docs::{self, Format, Templates};
+use docs_gen::{self as docs, Format, Templates};
 use od_spec::model::{Dictionary, Entry, EntryId, Index, Role, SubIndex, System};
 use od_tests::{compile_clean, root};
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::c;
+use od_c as c;
 use od_gen::rust::{self, Provenance};
 use od_spec::diag::{Code, Diagnostics, Example, Language, Severity, codes as known};
 use od_spec::source::SourceMap;
@@ -13,7 +13,7 @@ use crate::diagnostics::bytes_and_libraries::{LAMP, compiled_with};
 use crate::diagnostics::settings::{HEATER, assigned};
 use crate::diagnostics::{cases, codes, parameter_files, parts, plants, run};
 
-#[path = "../../../../od-gen/tests/cli/provoked.rs"]
+#[path = "../../../../od-gen/cli/tests/cli/provoked.rs"]
 mod command_line;
 
 /// Something that provokes a code and is no specification by itself.
@@ -75,14 +75,14 @@ fn without_heartbeat() -> Diagnostics {
 /// What is said about an EDS or DCF that is an example, with the text.
 pub(crate) fn eds_example(example: &Example) -> (Diagnostics, SourceMap) {
     let mut sources = SourceMap::new();
-    let file = sources.add(example.language.file_name(), example.whole(example.before));
+    let file = sources.add(example.language.file_name(), example.language.whole(example.before));
     let compiled = compile_as(Strictness::Standard, &mut sources, file, &mut NoFiles);
     (compiled.diagnostics, sources)
 }
 
 /// What is said about the example of a code, with the settings that it gives as comments.
 fn example(example: &Example) -> BTreeSet<&'static Code> {
-    let text = example.whole(example.before);
+    let text = example.language.whole(example.before);
     match example.language {
         Language::Specification => {}
         Language::Eds | Language::Dcf => return codes(&eds_example(example).0),

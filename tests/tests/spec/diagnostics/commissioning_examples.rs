@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use od_gen::concise;
+use od_formats::concise;
 use od_spec::diag::{Diagnostics, Example, Language};
 use od_spec::plant::{Settled, plant};
 use od_spec::source::SourceMap;
@@ -74,7 +74,7 @@ fn of_concise(text: &str) -> (Diagnostics, SourceMap) {
 }
 
 fn said(example: &Example, text: &str) -> Option<(Diagnostics, SourceMap)> {
-    let whole = example.whole(text);
+    let whole = example.language.whole(text);
     match example.language {
         Language::Specification | Language::Eds | Language::Dcf => None,
         Language::Parameters => Some(of_parameters(&whole)),

@@ -1,6 +1,6 @@
 //! A specification in several files says what it says in one, and what is wrong with its parts is said where it is.
 
-use od_gen::json;
+use od_formats::json;
 use od_spec::diag::Diagnostics;
 
 use crate::diagnostics::bytes_and_libraries::compiled_with;

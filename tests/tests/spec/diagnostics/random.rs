@@ -1,6 +1,7 @@
 //! Random specifications: nothing panics, and a refusal has a reason with a place.
 
-use od_gen::parameters::{About, write};
+use od_formats::findings::{github, json};
+use od_import::parameters::{About, write};
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Severity, codes};
 use od_spec::read_text;
@@ -77,11 +78,11 @@ fn apply(text: &str, damage: &Damage) -> String {
 /// Compiles and renders in every format; nothing may panic, and a refusal has a reason with a place.
 fn compile_anything(text: &str) {
     let (sources, root, compiled) = run("random.od.yaml", text);
-    for format in [Format::Human, Format::Short, Format::Json, Format::Github] {
-        let out = render(&compiled.diagnostics, &sources, format, false);
-        if format != Format::Human {
-            assert_eq!(out.lines().count(), compiled.diagnostics.iter().count());
-        }
+    let found = &compiled.diagnostics;
+    render(found, &sources, Format::Human, false);
+    for out in [render(found, &sources, Format::Short, false), json(found, &sources), github(found, &sources)]
+    {
+        assert_eq!(out.lines().count(), found.iter().count());
     }
     for diagnostic in &compiled.diagnostics {
         check_wording(diagnostic, &sources, text);

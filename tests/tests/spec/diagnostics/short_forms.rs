@@ -1,6 +1,7 @@
 //! What is written in a short form says the same as what is written in full: every output of the two is the same.
 
-use od_gen::{eds, json, rust};
+use od_formats::{eds, json};
+use od_gen::rust;
 use od_spec::diag::Diagnostics;
 use od_spec::model::{Index, SubIndex, Value};
 

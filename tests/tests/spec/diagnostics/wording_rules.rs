@@ -1,5 +1,6 @@
 //! Rules that hold for every message.
 
+use od_formats::findings;
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Language};
 use od_spec::source::{SourceMap, Span};
@@ -124,7 +125,7 @@ fn short_and_json_are_one_line_each() {
         let short = render(&compiled.diagnostics, &sources, Format::Short, false);
         assert_eq!(short.lines().count(), count, "{name}: {short}");
         assert!(short.lines().all(|line| line.starts_with(&format!("{name}:"))), "{name}: {short}");
-        let json = render(&compiled.diagnostics, &sources, Format::Json, false);
+        let json = findings::json(&compiled.diagnostics, &sources);
         assert_eq!(json.lines().count(), count, "{name}: {json}");
         for (line, diagnostic) in json.lines().zip(&compiled.diagnostics) {
             let value: serde_json::Value = serde_json::from_str(line).unwrap();

@@ -1,6 +1,6 @@
 //! What a case is, and what the compiler says about it.
 
-use od_gen::eds::eds_document;
+use od_formats::eds::eds_document;
 use od_spec::diag::Diagnostics;
 use od_spec::source::{SourceMap, Spanned};
 use od_spec::{NoFiles, Strictness, assign, compile, compile_as};

@@ -1,11 +1,16 @@
 //! What a DCF says about its node.
 
-pub(super) mod a_node_is_commissioned;
-pub(super) mod bit_rate_is_standard;
-pub(super) mod bit_rate_is_supported;
-pub(super) mod commissioning_has_its_name;
-pub(super) mod files_belong_to_domains;
-pub(super) mod node_id_is_one;
-pub(super) mod node_is_identified;
-pub(super) mod serial_numbers_agree;
-pub(super) mod settings_belong_to_a_dcf;
+use super::rule::FormatRule;
+use crate::rules::rules;
+
+rules! { FormatRule:
+    a_node_is_commissioned,
+    commissioning_has_its_name,
+    node_id_is_one,
+    node_is_identified,
+    bit_rate_is_standard,
+    bit_rate_is_supported,
+    serial_numbers_agree,
+    files_belong_to_domains,
+    settings_belong_to_a_dcf,
+}

@@ -1,22 +1,27 @@
 //! What a file says about itself and the device: `[FileInfo]`, `[DeviceInfo]`, `[DummyUsage]`.
 
-pub(super) mod a_bit_rate_is_supported;
-pub(super) mod dates_and_times_are_such;
-pub(super) mod dates_are_in_order;
-pub(super) mod device_is_identified;
-pub(super) mod device_says_what_it_can;
-pub(super) mod dummies_are_allowed_or_not;
-pub(super) mod dummies_are_static_types;
-pub(super) mod dynamic_channels_agree;
-pub(super) mod dynamic_objects_are_not_described;
-pub(super) mod every_dummy_is_mentioned;
-pub(super) mod file_has_its_name;
-pub(super) mod file_is_described;
-pub(super) mod format_version_is_current;
-pub(super) mod implied_pdos_are_whole;
-pub(super) mod information_exists;
-pub(super) mod information_is_numbers;
-pub(super) mod numbers_are_plain;
-pub(super) mod pdo_counts_agree;
-pub(super) mod sections_are_complete;
-pub(super) mod versions_are_numbers;
+use super::rule::FormatRule;
+use crate::rules::rules;
+
+rules! { FormatRule:
+    information_exists,
+    sections_are_complete,
+    file_is_described,
+    device_is_identified,
+    device_says_what_it_can,
+    information_is_numbers,
+    numbers_are_plain,
+    versions_are_numbers,
+    format_version_is_current,
+    dates_and_times_are_such,
+    dates_are_in_order,
+    file_has_its_name,
+    a_bit_rate_is_supported,
+    pdo_counts_agree,
+    implied_pdos_are_whole,
+    dynamic_channels_agree,
+    dummies_are_allowed_or_not,
+    every_dummy_is_mentioned,
+    dummies_are_static_types,
+    dynamic_objects_are_not_described,
+}

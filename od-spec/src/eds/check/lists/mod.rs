@@ -1,13 +1,18 @@
 //! Lists of objects, and other numbered lists.
 
-pub(super) mod counts_agree;
-pub(super) mod data_types_are_not_listed;
-pub(super) mod entries_are_indices;
-pub(super) mod listed_objects_are_described;
-pub(super) mod lists_are_numbered;
-pub(super) mod lists_ascend;
-pub(super) mod lists_exist;
-pub(super) mod mandatory_objects_are_those_of_the_standard;
-pub(super) mod objects_are_in_their_list;
-pub(super) mod objects_are_listed;
-pub(super) mod objects_are_listed_once;
+use super::rule::FormatRule;
+use crate::rules::rules;
+
+rules! { FormatRule:
+    lists_exist,
+    counts_agree,
+    lists_are_numbered,
+    entries_are_indices,
+    objects_are_listed_once,
+    listed_objects_are_described,
+    objects_are_listed,
+    objects_are_in_their_list,
+    mandatory_objects_are_those_of_the_standard,
+    data_types_are_not_listed,
+    lists_ascend,
+}

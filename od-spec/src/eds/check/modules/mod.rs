@@ -1,8 +1,13 @@
 //! Modules of a modular device.
 
-pub(super) mod connected_modules_are_supported;
-pub(super) mod extensions_can_be_counted;
-pub(super) mod modules_are_described;
-pub(super) mod modules_bring_something;
-pub(super) mod objects_of_modules_are_one_thing;
-pub(super) mod shared_objects_agree;
+use super::rule::FormatRule;
+use crate::rules::rules;
+
+rules! { FormatRule:
+    modules_are_described,
+    modules_bring_something,
+    objects_of_modules_are_one_thing,
+    shared_objects_agree,
+    extensions_can_be_counted,
+    connected_modules_are_supported,
+}

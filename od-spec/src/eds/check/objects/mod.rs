@@ -1,11 +1,16 @@
 //! Sections of objects and sub-indices.
 
-pub(super) mod flags_are_defined;
-pub(super) mod flags_are_needed;
-pub(super) mod links_have_an_object;
-pub(super) mod mapping_has_a_direction;
-pub(super) mod single_values_have_no_sub_indices;
-pub(super) mod structured_objects_have_no_value;
-pub(super) mod sub_indices_are_counted;
-pub(super) mod sub_indices_are_counted_in_one_way;
-pub(super) mod sub_number_agrees;
+use super::rule::FormatRule;
+use crate::rules::rules;
+
+rules! { FormatRule:
+    structured_objects_have_no_value,
+    single_values_have_no_sub_indices,
+    sub_indices_are_counted_in_one_way,
+    sub_indices_are_counted,
+    sub_number_agrees,
+    flags_are_defined,
+    flags_are_needed,
+    links_have_an_object,
+    mapping_has_a_direction,
+}

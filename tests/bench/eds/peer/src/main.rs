@@ -62,7 +62,7 @@ fn make(spec: &str, eds: &str) -> Result<(), String> {
     let root = sources.add(spec, text);
     let system = compile(&mut sources, root, &mut NoFiles).system.ok_or("the specification has errors")?;
     let device = system.devices.first().ok_or("the specification has no device")?;
-    fs::write(eds, od_gen::eds::write_eds(&system, device)).map_err(|error| format!("{eds}: {error}"))
+    fs::write(eds, od_formats::eds::write_eds(&system, device)).map_err(|error| format!("{eds}: {error}"))
 }
 
 fn read(file: &str) -> Result<Vec<u8>, String> {

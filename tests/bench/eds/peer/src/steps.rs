@@ -75,13 +75,13 @@ impl Step {
                 let (_, _, compiled) = compiled(own, Strictness::Foreign)?;
                 let system = compiled.system.as_ref().ok_or("no model")?;
                 let device = system.devices.first().ok_or("no device")?;
-                let text = od_gen::eds::write_eds(system, device);
+                let text = od_formats::eds::write_eds(system, device);
                 let size = text.len();
                 Ok(((text, compiled), size))
             }),
             Step::Import => timed(|| {
                 let (sources, root, compiled) = compiled(own, Strictness::Foreign)?;
-                let imported = od_gen::import::import(&compiled, &sources, root).ok_or("no model")?;
+                let imported = od_import::import(&compiled, &sources, root).ok_or("no model")?;
                 let text = imported.map_err(|_| "no specification")?.text;
                 let size = text.len();
                 Ok(((text, compiled), size))

@@ -1,0 +1,7 @@
+//! What stands on the pages: devices, chapters of the manual, appendices and warnings.
+
+pub(crate) mod appendix;
+mod chapters;
+mod device;
+mod groups;
+mod warnings;

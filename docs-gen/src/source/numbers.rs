@@ -1,0 +1,53 @@
+//! Where the numbered tables, figures and sections of the manual stand in a document, and links to them in running text.
+
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::rc::Rc;
+
+use crate::source::Source;
+use crate::source::mentions::{self, Numbered};
+use crate::view::{Cell, Target};
+
+impl Source<'_> {
+    /// The numbers in a text that the document has, each as a link.
+    pub(crate) fn links_to_numbers(&self, text: &str) -> impl Iterator<Item = (Range<usize>, Cell)> {
+        mentions::found(text).into_iter().filter_map(|mention| {
+            let numbers = self.numbers.get_or_init(|| self.numbers_shown());
+            let Target { anchor, page } = numbers.get(&(mention.kind, mention.number.to_owned()))?.clone();
+            Some((mention.range.clone(), Cell::default().link(&text[mention.range], anchor, page)))
+        })
+    }
+
+    /// What the chapters show of the devices that have a page. One number may stand twice: the first counts.
+    fn numbers_shown(&self) -> BTreeMap<(Numbered, String), Target> {
+        let mut numbers = BTreeMap::new();
+        for chapter in self.of_all_pages().chapter_views() {
+            let mut add = |kind, number: &str, anchor: String| {
+                let number = number.trim_end_matches('.').to_owned();
+                let page = chapter.page.clone();
+                numbers.entry((kind, number)).or_insert(Target { anchor, page });
+            };
+            for section in chapter.sections {
+                add(Numbered::Section, &section.number, section.anchor);
+                for table in section.tables {
+                    if let Some(number) = table.number {
+                        add(Numbered::Table, &number.to_string(), table.anchor);
+                    }
+                    if let Some(figure) = table.figure {
+                        add(Numbered::Figure, &figure.number.to_string(), figure.anchor);
+                    }
+                }
+            }
+        }
+        numbers
+    }
+
+    /// The same for the whole document, in whose texts no number is a link: what is shown does not depend on links.
+    fn of_all_pages(&self) -> Self {
+        let mut all = self.clone();
+        all.devices.clone_from(&self.with_page);
+        all.numbers = Rc::new(OnceCell::from(BTreeMap::new()));
+        all
+    }
+}

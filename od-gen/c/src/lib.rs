@@ -1,0 +1,110 @@
+//! C for firmware: the same plan as the Rust, printed as C99.
+//!
+//! Each device has a folder, `c/KEY/`, with `OD_types.h`, what its numbers mean, and the dictionary of each [`Kind`] that is wanted.
+
+mod canopennode;
+mod conditions;
+mod language;
+mod literal;
+mod names;
+mod page;
+mod plain;
+mod relations;
+mod text;
+mod types;
+
+use od_gen::Artifact;
+use od_gen::Provenance;
+use od_gen::plan::{Plan, decided, plan};
+use od_spec::diag::Diagnostics;
+use od_spec::model::{Dictionary, System};
+
+pub(crate) use self::language::C;
+use self::names::{Names, Register};
+use self::page::Page;
+use self::text::{Text, header};
+
+/// For which firmware a dictionary is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Kind {
+    /// By itself: tables, and the small reader and writer that comes with them.
+    Plain,
+    /// For the stack CANopenNode, version 4.
+    CanopenNode,
+}
+
+/// The C of some devices, of each kind; of none when anything is wrong. What cannot be code is reported, as for Rust. The files include those that
+/// [`shared`] gives.
+pub fn artifacts<'a>(
+    system: &System,
+    devices: impl Iterator<Item = &'a Dictionary>,
+    provenance: &Provenance,
+    kinds: &[Kind],
+    diagnostics: &mut Diagnostics,
+) -> Vec<Artifact> {
+    if kinds.is_empty() {
+        return Vec::new();
+    }
+    let (before, _) = diagnostics.count();
+    let mut register = Register::default();
+    let mut set = Vec::new();
+    for device in devices {
+        let device = decided(system, device, &C);
+        let plan = plan(system, &device, &C, diagnostics);
+        // What follows from a plan that is not whole would be reported once more.
+        if diagnostics.count().0 == before {
+            set.extend(of_device(&plan, provenance, kinds, &mut register, diagnostics));
+        }
+    }
+    if diagnostics.count().0 == before { set } else { Vec::new() }
+}
+
+/// What the files of all devices include, each once however many there are.
+pub fn shared(kinds: &[Kind]) -> Vec<Artifact> {
+    let of_kind = |kind: &Kind| match kind {
+        Kind::Plain => plain::runtime().to_vec(),
+        // Each folder is whole by itself, as the stack includes `OD.h` by this name.
+        Kind::CanopenNode => Vec::new(),
+    };
+    kinds.iter().flat_map(of_kind).collect()
+}
+
+fn of_device(
+    plan: &Plan<'_>,
+    provenance: &Provenance,
+    kinds: &[Kind],
+    register: &mut Register,
+    diagnostics: &mut Diagnostics,
+) -> Vec<Artifact> {
+    let names = Names::of(plan.device);
+    let about = |what: &str| format!("{what} of `{}`, from {}.", plan.device.key, provenance.name());
+    let file = |name: &str, text: Text, purpose: &str| Artifact {
+        path: format!("c/{}/{name}", names.device()),
+        bytes: text.into_bytes(),
+        purpose: purpose.to_owned(),
+    };
+    let mut page = Page { plan, names: &names, text: Text::default(), register, diagnostics };
+    let mut set = Vec::new();
+    types::print(&mut page);
+    let guard = names.macro_of(&["OD", "TYPES", "H"]);
+    let text = header(&about("What the numbers in the object dictionary mean"), &guard, &page.finish());
+    set.push(file(types::FILE, text, "enums, bits, scales and error codes for C"));
+    for kind in kinds {
+        match kind {
+            Kind::Plain => {
+                plain::header(&mut page);
+                let guard = names.macro_of(&["OD", "H"]);
+                let text = header(&about("The object dictionary"), &guard, &page.finish());
+                set.push(file(&plain::file(&names, "h"), text, "the dictionary for C firmware"));
+                plain::source(&mut page, &about("The table of the object dictionary"));
+                set.push(file(&plain::file(&names, "c"), page.finish(), "its table"));
+            }
+            Kind::CanopenNode => {
+                let folder = format!("c/{}", names.device());
+                set.extend(canopennode::files(plan, &folder, &about, page.diagnostics));
+            }
+        }
+    }
+    set
+}

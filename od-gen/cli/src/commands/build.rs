@@ -1,0 +1,263 @@
+//! `odgen build`.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use od_c as c;
+use od_formats::{Selection, artifacts};
+use od_gen::files::{Existing, WriteError, left_over, remove};
+use od_gen::{Artifact, Provenance, rust};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::model::{Devices, Dictionary, Origin, PdoMapping, System};
+use od_spec::rule_codes;
+use od_spec::source::SourceMap;
+
+use crate::exit::ERRORS;
+use crate::messages::Messages;
+use crate::output::{clash, forced, not_written, overwritten, write};
+use crate::report::{Report, Used, node_id, print, shown};
+use crate::specs::{self, stem};
+use crate::templates::DocsFormat;
+use crate::templates::{Problem, templates};
+
+#[derive(Debug, Args)]
+pub(crate) struct BuildArgs {
+    /// Specifications, EDS, DCF, XDD or XDC files [default: the `*.od.yaml` of the current directory]
+    pub specs: Vec<PathBuf>,
+
+    /// Directory for the files
+    #[arg(long, short, default_value = "generated", value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// Only these devices
+    #[arg(long, value_name = "KEY")]
+    pub device: Vec<String>,
+
+    /// Also a DCF of each device for this node-ID (1 to 127) [default: of a DCF its own node, with its values]
+    #[arg(long, value_name = "ID")]
+    pub node: Option<String>,
+
+    /// Also an XDD of each device (CiA 311), `xdd/KEY.xdd`, and an XDC beside each DCF
+    #[arg(long)]
+    pub xdd: bool,
+
+    /// Also a Rust module of each device, `src/KEY.rs`
+    #[arg(long)]
+    pub rust: bool,
+
+    /// Also the dictionary of each device in C, for this kind of firmware, `c/KEY/`
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub c: Vec<CKind>,
+
+    /// Also the reference documentation in this format, `docs/`
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub docs: Vec<DocsFormat>,
+
+    /// Remove what odgen made there before and this command does not make
+    #[arg(long, conflicts_with = "device")]
+    pub prune: bool,
+
+    /// Replace files of these names that odgen did not make
+    #[arg(long)]
+    pub force: bool,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+/// Firmware that a dictionary in C is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CKind {
+    /// Any: a dictionary by itself, C99 without a stack
+    Plain,
+    /// Firmware with the stack CANopenNode, version 4: `OD.h`, `OD.c`, and an extension that keeps limits, locks and conditions
+    #[value(name = "canopennode")]
+    CanopenNode,
+}
+
+impl From<CKind> for od_c::Kind {
+    fn from(kind: CKind) -> Self {
+        match kind {
+            CKind::Plain => Self::Plain,
+            CKind::CanopenNode => Self::CanopenNode,
+        }
+    }
+}
+
+pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
+    let node = match args.node.as_deref().map(node_id).transpose() {
+        Ok(node) => node,
+        Err(diagnostic) => return report.refuse(diagnostic),
+    };
+    let specs = match specs::all(&args.specs, directory, report) {
+        Ok(specs) => specs,
+        Err(code) => return code,
+    };
+    let Some(mut systems) = compile_all(&specs, args, report) else { return ERRORS };
+    let mut set: Vec<Artifact> = Vec::new();
+    let mut summary = String::new();
+    for key in &args.device {
+        if !systems.iter().any(|built| built.used.system.device(key).is_some()) {
+            return report.unknown_device(systems.iter().map(|built| &built.used.system), key);
+        }
+    }
+    let templates = match args.docs.as_slice() {
+        [] => Ok(Vec::new()),
+        formats => templates(formats, None),
+    };
+    let templates = match templates {
+        Ok(templates) => templates,
+        Err(problem) => return problem.show(report),
+    };
+    for Built { path, used: Used { system, node: configured, stated_node_id, .. }, code } in &mut systems {
+        let devices: Vec<&Dictionary> = system.devices.iter().filter(|device| wanted(args, device)).collect();
+        if devices.is_empty() {
+            continue;
+        }
+        let stem = &stem(path);
+        summary.extend(devices.into_iter().map(describe));
+        let node = node.or(*stated_node_id);
+        if node.is_none() && configured.is_some() {
+            report.note(&format!(
+                "{} states no node-ID, so no DCF is made; `--node ID` makes one with its values",
+                shown(path)
+            ));
+        }
+        let configured = configured.as_ref().filter(|_| node.is_some());
+        let selection = Selection { devices: &args.device, node, configured, xdd: args.xdd };
+        set.extend(artifacts(system, stem, &selection));
+        set.append(code);
+        if !templates.is_empty() {
+            let options = docs_gen::options(system, &args.device, None);
+            match docs_gen::artifacts(system, "docs/", stem, &options, &templates) {
+                Ok(artifacts) => set.extend(artifacts),
+                Err(error) => return Problem::Template(error, None).show(report),
+            }
+        }
+    }
+    if !set.is_empty() {
+        set.extend(c::shared(&kinds(args)));
+    }
+    if let Some(what) = clash(&set, "devices") {
+        return report.refuse(Diagnostic::without_place(rule_codes::DUPLICATE_NAME, what).help(
+            "give the devices or specifications other names, or build them into different directories, with `--device` and `--out`",
+        ));
+    }
+    if let Some(path) = overwritten(&args.out, &set, &specs) {
+        return report.refuse(
+            Diagnostic::without_place(
+                codes::WRITE_FAILED,
+                format!("cannot write {path}: it is read to make it"),
+            )
+            .help("build into another directory, with `--out`"),
+        );
+    }
+    // The process ends next: taking the models apart piece by piece would only cost the user time.
+    std::mem::forget(systems);
+    let code = write(&args.out, &set, forced(args.force, Existing::Generated), &summary, report);
+    // What is made of some devices says nothing about the others.
+    if code != 0 || !args.device.is_empty() {
+        return code;
+    }
+    match left_from_before(args, &set) {
+        Ok(text) => print(&text),
+        Err(error) => report.refuse(not_written(&error)),
+    }
+}
+
+/// Names what an earlier build made and this one does not, and removes it if that is wanted.
+fn left_from_before(args: &BuildArgs, set: &[Artifact]) -> Result<String, WriteError> {
+    /// So many files are named.
+    const NAMED: usize = 5;
+    let mut left = left_over(&args.out, set)?;
+    // A build makes a DCF beside the EDS of its device, and an XDC beside its XDD; any other is one of `odgen dcf`.
+    left.retain(|path| {
+        let path = args.out.join(path);
+        let beside = |ending: &str| path.with_extension(ending).exists();
+        match path.extension().and_then(std::ffi::OsStr::to_str) {
+            Some("dcf") => beside("eds"),
+            Some("xdc") => beside("xdd"),
+            Some(_) | None => true,
+        }
+    });
+    if left.is_empty() {
+        return Ok(String::new());
+    }
+    let mut names: Vec<String> = left.iter().take(NAMED).map(|path| shown(&args.out.join(path))).collect();
+    if left.len() > NAMED {
+        names.push(format!("{} more", left.len() - NAMED));
+    }
+    let names = names.join(", ");
+    if args.prune {
+        remove(&args.out, &left)?;
+        return Ok(format!("  removed, as nothing makes it any more: {names}\n"));
+    }
+    Ok(format!("  made before, and not by this command: {names}; `--prune` removes it\n"))
+}
+
+/// A specification that was compiled.
+struct Built {
+    path: PathBuf,
+    used: Used,
+    /// Its Rust modules and its C, as far as they are wanted.
+    code: Vec<Artifact>,
+}
+
+/// Compiles everything, so that all messages are shown; `None` if any has errors.
+fn compile_all(specs: &[PathBuf], args: &BuildArgs, report: &Report) -> Option<Vec<Built>> {
+    let built = specs.iter().map(|path| {
+        let (used, sources) = report.compile_with_sources(path)?;
+        let code = code(args, &used.system, &sources, report)?;
+        Some(Built { path: path.clone(), used, code })
+    });
+    built.collect::<Vec<_>>().into_iter().collect()
+}
+
+/// The Rust modules and the C of the wanted devices; `None` if any cannot be made.
+fn code(args: &BuildArgs, system: &System, sources: &SourceMap, report: &Report) -> Option<Vec<Artifact>> {
+    let devices = || system.devices.iter().filter(|device| wanted(args, device));
+    let provenance = Provenance::of(sources);
+    let mut set = Vec::new();
+    let mut is_whole = true;
+    let mut make = |of: &dyn Fn(&mut Diagnostics) -> Vec<Artifact>| {
+        let mut diagnostics = Diagnostics::new();
+        set.extend(of(&mut diagnostics));
+        report.show(&diagnostics, sources);
+        is_whole &= !diagnostics.has_errors();
+    };
+    if args.rust {
+        make(&|diagnostics| rust::artifacts(system, devices(), &provenance, diagnostics));
+    }
+    make(&|diagnostics| c::artifacts(system, devices(), &provenance, &kinds(args), diagnostics));
+    is_whole.then_some(set)
+}
+
+/// The kinds of C that are wanted, each once.
+fn kinds(args: &BuildArgs) -> Vec<c::Kind> {
+    let mut kinds: Vec<c::Kind> = args.c.iter().copied().map(c::Kind::from).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    kinds
+}
+
+fn wanted(args: &BuildArgs, device: &Dictionary) -> bool {
+    Devices::listed(&args.device).includes(&device.key)
+}
+
+fn describe(device: &Dictionary) -> String {
+    let described: Vec<_> =
+        device.objects.values().filter(|object| object.origin == Origin::Manual).collect();
+    let entries: usize = described.iter().map(|object| object.entries.len()).sum();
+    let mappable =
+        described.iter().flat_map(|object| &object.entries).filter(|entry| entry.pdo != PdoMapping::None);
+    let stored = described.iter().filter(|object| object.is_stored()).count();
+    format!(
+        "  {:<6} {} objects · {} entries · {} mappable · {} stored · {} more from libraries and PDOs\n",
+        device.key,
+        described.len(),
+        entries,
+        mappable.count(),
+        stored,
+        device.objects.len() - described.len()
+    )
+}

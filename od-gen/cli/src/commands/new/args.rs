@@ -1,0 +1,55 @@
+//! Arguments of `odgen new`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use crate::messages::Messages;
+
+#[derive(Debug, Args)]
+pub(crate) struct NewArgs {
+    /// Key of the device, which also names the file: small letters, digits and hyphens
+    pub name: String,
+
+    /// What the device follows
+    #[arg(long, value_enum, default_value_t)]
+    pub profile: Profile,
+
+    /// Modes of operation of a drive, such as `pp,hm` or `"profile position,homing"`
+    #[arg(long, value_delimiter = ',', value_name = "MODES")]
+    pub modes: Vec<String>,
+
+    /// Digital inputs of an I/O module
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=2032))]
+    pub inputs: Option<u16>,
+
+    /// Digital outputs of an I/O module
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=2032))]
+    pub outputs: Option<u16>,
+
+    /// Analogue inputs of an I/O module
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=254))]
+    pub analogue_inputs: Option<u16>,
+
+    /// Analogue outputs of an I/O module
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=254))]
+    pub analogue_outputs: Option<u16>,
+
+    /// Directory for the file
+    #[arg(long, short, default_value = ".", value_name = "DIR")]
+    pub out: PathBuf,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Profile {
+    /// No device profile, only the communication objects
+    #[default]
+    Cia301,
+    /// I/O modules; how many channels they have, `--inputs` and the others say
+    Cia401,
+    /// Drives and motion control; its modes are pp, vl, pv, tq, hm, ip, csp, csv, cst
+    Cia402,
+}

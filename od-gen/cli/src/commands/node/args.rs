@@ -1,0 +1,287 @@
+//! Arguments of the commands that talk to nodes on a bus.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::{Args, Subcommand, ValueEnum};
+use od_bus::trace::Service;
+
+use crate::bus_nodes::NodesArgs;
+use crate::messages::{Format, Messages};
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeArgs {
+    #[command(subcommand)]
+    pub command: NodeCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum NodeCommand {
+    /// Read entries: name, value in its unit or by its name, set bits, bytes
+    Read(NodeReadArgs),
+    /// Write entries, in the order that is given, after a check against the specification and what the node has
+    Write(NodeWriteArgs),
+    /// Write the parameters of a node, or of all nodes of a machine, into parameter files, by name and in units: all that can be read and written
+    Backup(NodeBackupArgs),
+    /// Tell which values of a parameter file a node, or the nodes of a machine, have otherwise; exit code 3 when there are any
+    Compare(NodeFileArgs),
+    /// Give a node, or the nodes of a machine, the values of a parameter file, in an order that they take, and read them back
+    Restore(NodeFileArgs),
+    /// Tell what goes over the bus, while it does: heartbeats and their loss, states, emergencies, PDOs and transfers with names and units
+    Monitor(NodeMonitorArgs),
+    /// Ask all 127 node-IDs who they are, and tell which of the specifications fits
+    Scan(NodeScanArgs),
+    /// Command the state of a node, or of all
+    Nmt(NodeNmtArgs),
+    /// Make a node store its parameters (1010h)
+    Store(NodeGroupArgs),
+    /// Make a node take its defaults again (1011h), from its next reset on
+    LoadDefaults(NodeGroupArgs),
+}
+
+impl NodeCommand {
+    /// How messages are written, where that is said behind the command.
+    pub(crate) const fn message_format(&self) -> Option<Format> {
+        match self {
+            Self::Read(args) => args.node.link.messages.format,
+            Self::Write(args) => args.node.link.messages.format,
+            Self::Backup(args) => args.node.link.messages.format,
+            Self::Compare(args) | Self::Restore(args) => args.node.link.messages.format,
+            Self::Monitor(args) => args.link.messages.format,
+            Self::Scan(args) => args.link.messages.format,
+            Self::Nmt(args) => args.link.messages.format,
+            Self::Store(args) | Self::LoadDefaults(args) => args.link.messages.format,
+        }
+    }
+}
+
+/// How the bus is reached.
+#[derive(Debug, Args)]
+pub(crate) struct LinkArgs {
+    /// The CAN adapter, which speaks SLCAN: `tcp:HOST:PORT`, such as `odgen serve`, or `serial:PORT[@BAUD]`, such as `serial:/dev/ttyACM0`
+    #[arg(long, value_name = "ADAPTER", default_value = "tcp:127.0.0.1:3333")]
+    pub slcan: String,
+
+    /// In place of an adapter with SLCAN: a CAN interface of Linux (SocketCAN), such as `can0`
+    #[arg(long, value_name = "INTERFACE", conflicts_with = "slcan")]
+    pub socketcan: Option<String>,
+
+    /// Bit rate that the adapter is set to, in kbit/s [default: what it has]
+    #[arg(long, value_name = "KBIT")]
+    pub bit_rate: Option<u16>,
+
+    /// Milliseconds after which a node that says nothing is given up
+    #[arg(long, value_name = "MS", default_value_t = 1000)]
+    pub timeout: u32,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+/// Which node, and what device it is.
+#[derive(Debug, Args)]
+pub(crate) struct OneNodeArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
+    /// Key of the device [default: the only one]
+    #[arg(long, value_name = "KEY")]
+    pub device: Option<String>,
+
+    /// Node-ID, 1 to 127 [default: of a DCF or a parameter file its own]
+    #[arg(long, value_name = "ID")]
+    pub node: Option<String>,
+
+    /// Where SPEC is a plant file: the machine, by name or number, whose nodes are meant [default: the only one]
+    #[arg(long, value_name = "NAME")]
+    pub machine: Option<String>,
+
+    /// The site of the machine [default: that of the only machine with this name]
+    #[arg(long, value_name = "NAME")]
+    pub site: Option<String>,
+
+    /// Go on with a node that says by its device type, vendor or product that it is another device
+    #[arg(long)]
+    pub any_device: bool,
+
+    #[command(flatten)]
+    pub link: LinkArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeReadArgs {
+    #[command(flatten)]
+    pub node: OneNodeArgs,
+
+    /// Entries by index or name, as settings name them: `6064`, `607D.2`, `"position actual value"`; of an object with several entries all
+    #[arg(required = true, value_name = "ENTRY")]
+    pub entries: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeWriteArgs {
+    #[command(flatten)]
+    pub node: OneNodeArgs,
+
+    /// What is written: `607D.2=9000`, `"EFC target position=90.00 °"`
+    #[arg(required = true, value_name = "ENTRY=VALUE")]
+    pub settings: Vec<String>,
+
+    /// Locked entry that may be written all the same: factory data, which the device takes only while it is unlocked for service
+    #[arg(long, value_name = "ENTRY")]
+    pub unlock: Vec<String>,
+
+    /// Send also what fails the check; the node has the last word
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeBackupArgs {
+    #[command(flatten)]
+    pub node: OneNodeArgs,
+
+    /// File to write; without `--node`, of a machine of a plant the directory for a file of each node
+    #[arg(long, short, value_name = "FILE|DIR")]
+    pub out: PathBuf,
+
+    /// Replace files of these names
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeFileArgs {
+    #[command(flatten)]
+    pub node: OneNodeArgs,
+
+    /// The parameter file; of a machine of a plant the directory with a file of each node
+    #[arg(value_name = "FILE|DIR")]
+    pub file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeScanArgs {
+    /// Specifications, EDS, DCF, XDD or XDC files whose devices nodes may be [default: none]
+    #[arg(value_name = "SPEC")]
+    pub specs: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub link: LinkArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeMonitorArgs {
+    #[command(flatten)]
+    pub nodes: NodesArgs,
+
+    /// Every frame, also SYNC, TIME, heartbeats with the same state and PDOs with the same values
+    #[arg(long)]
+    pub all: bool,
+
+    /// Only these services
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "SERVICE")]
+    pub only: Vec<ServiceName>,
+
+    /// Ask the nodes first which identifiers they use and what their PDOs carry, by SDO; otherwise that is as specified until it is written
+    #[arg(long)]
+    pub ask: bool,
+
+    /// End after so many seconds [default: with Ctrl-C]
+    #[arg(long = "for", value_name = "SECONDS", value_parser = duration)]
+    pub seconds: Option<Duration>,
+
+    #[command(flatten)]
+    pub link: LinkArgs,
+}
+
+/// `1.5`.
+fn duration(text: &str) -> Result<Duration, String> {
+    let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let seconds = text.parse().ok().filter(|_| is_plain);
+    seconds
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "expected a number of seconds, such as `1.5`".to_owned())
+}
+
+/// What frames belong to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ServiceName {
+    /// Commands of the master
+    Nmt,
+    /// SYNC
+    Sync,
+    /// TIME
+    Time,
+    /// Emergency messages
+    Emcy,
+    /// PDOs
+    Pdo,
+    /// Transfers of entries
+    Sdo,
+    /// Boot-up, heartbeats and their loss, node guarding
+    Heartbeat,
+    /// Layer setting services
+    Lss,
+    /// Nothing that is known
+    Unknown,
+}
+
+impl ServiceName {
+    pub(crate) const fn service(self) -> Service {
+        match self {
+            Self::Nmt => Service::Nmt,
+            Self::Sync => Service::Sync,
+            Self::Time => Service::Time,
+            Self::Emcy => Service::Emergency,
+            Self::Pdo => Service::Pdo,
+            Self::Sdo => Service::Sdo,
+            Self::Heartbeat => Service::Heartbeat,
+            Self::Lss => Service::Lss,
+            Self::Unknown => Service::Unknown,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeNmtArgs {
+    /// The command
+    #[arg(value_enum)]
+    pub command: NmtName,
+
+    /// Node-ID, 1 to 127, or `all`
+    #[arg(long, value_name = "ID|all")]
+    pub node: String,
+
+    #[command(flatten)]
+    pub link: LinkArgs,
+}
+
+/// The commands of NMT.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NmtName {
+    /// To operational: PDOs are sent and taken
+    Start,
+    /// To stopped: nothing is served but NMT
+    Stop,
+    /// To pre-operational: the node can be set up
+    PreOperational,
+    /// The whole device starts again
+    ResetNode,
+    /// The communication starts again
+    ResetCommunication,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeGroupArgs {
+    /// Node-ID, 1 to 127
+    #[arg(long, value_name = "ID")]
+    pub node: String,
+
+    /// Which parameters: 1 all, 2 communication, 3 application, from 4 on the manufacturer's
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=127))]
+    pub group: u8,
+
+    #[command(flatten)]
+    pub link: LinkArgs,
+}

@@ -1,0 +1,148 @@
+//! `odgen node scan`, `nmt`, `store` and `load-defaults`: what needs no dictionary.
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use od_bus::client::{AccessError, Answered, BusError, Identity};
+use od_spec::diag::{Diagnostic, codes};
+use od_spec::model::{EntryId, Index, SubIndex};
+
+use super::args::{NmtName, NodeGroupArgs, NodeNmtArgs, NodeScanArgs};
+use super::connect;
+use crate::exit::ERRORS;
+use crate::report::{Report, node_id, print, shown};
+use crate::specs;
+
+/// A node starts within this time.
+const START: Duration = Duration::from_secs(5);
+
+/// What is said where nothing goes over the bus.
+pub(super) fn broken(error: &BusError) -> Diagnostic {
+    Diagnostic::without_place(codes::ACCESS_FAILED, error.to_string())
+        .help("check adapter, bit rate and wires")
+}
+
+/// Lists the nodes that answer, each with the devices that it can be.
+pub(super) fn scan(args: &NodeScanArgs, report: &Report) -> Result<u8, u8> {
+    let mut known: Vec<(String, Identity)> = Vec::new();
+    let paths = if args.specs.is_empty() {
+        Vec::new()
+    } else {
+        specs::all(&args.specs, std::path::Path::new("."), report)?
+    };
+    for path in paths {
+        let system = report.compile(&path).ok_or(ERRORS)?;
+        known.extend(system.devices.iter().map(|device| {
+            (format!("{} ({}) of {}", device.key, device.name, shown(&path)), Identity::of(device))
+        }));
+    }
+    let mut client = connect(&args.link, report)?;
+    let within = Duration::from_millis(args.link.timeout.into());
+    let found = od_bus::client::scan(&mut client, within).map_err(|error| report.refuse(broken(&error)))?;
+    if found.is_empty() {
+        let message = "no node answers";
+        return Err(report.refuse(
+            Diagnostic::without_place(codes::ACCESS_FAILED, message)
+                .help("check bit rate, wires and power; a node that is stopped does not answer"),
+        ));
+    }
+    let text: String = found.iter().map(|answered| described(answered, &known)).collect();
+    Ok(print(&text))
+}
+
+/// The lines about a node.
+fn described(answered: &Answered, known: &[(String, Identity)]) -> String {
+    let Identity { device_type, vendor, product, revision, serial, name, .. } = &answered.identity;
+    let of = [
+        ("device type", device_type),
+        ("vendor", vendor),
+        ("product", product),
+        ("revision", revision),
+        ("serial number", serial),
+    ];
+    let mut parts: Vec<String> = of
+        .iter()
+        .filter_map(|(what, number)| number.map(|number| format!("{what} 0x{number:08X}")))
+        .collect();
+    parts.extend(name.as_ref().map(|name| format!("name \"{name}\"")));
+    let mut text = format!("node {}  {}\n", answered.node, parts.join(", "));
+    let mut fits = known.iter().filter(|(_, identity)| answered.identity.fits(identity)).peekable();
+    if fits.peek().is_none() && !known.is_empty() {
+        text.push_str("    none of the specifications fits\n");
+    }
+    for (device, identity) in fits {
+        let is_other = identity.revision.is_some() && identity.revision != *revision;
+        let remark = if is_other { ", of another revision" } else { "" };
+        let _ = writeln!(text, "    can be {device}{remark}");
+    }
+    text
+}
+
+/// Sends a command; after a reset, waits for the node to be there again.
+pub(super) fn nmt(args: &NodeNmtArgs, report: &Report) -> Result<u8, u8> {
+    let node = match args.node.as_str() {
+        "all" => 0,
+        text => node_id(text).map_err(|diagnostic| report.refuse(diagnostic))?,
+    };
+    let (byte, is_reset) = match args.command {
+        NmtName::Start => (1, false),
+        NmtName::Stop => (2, false),
+        NmtName::PreOperational => (128, false),
+        NmtName::ResetNode => (129, true),
+        NmtName::ResetCommunication => (130, true),
+    };
+    let mut client = connect(&args.link, report)?;
+    client.command(byte, node).map_err(|error| report.refuse(broken(&error)))?;
+    if node == 0 {
+        return Ok(print("sent to all nodes, which do not answer\n"));
+    }
+    if !is_reset {
+        return Ok(print(&format!("sent to node {node}, which does not answer to it\n")));
+    }
+    if client.booted(node, START).map_err(|error| report.refuse(broken(&error)))? {
+        return Ok(print(&format!("node {node} has started again\n")));
+    }
+    let message = format!("node {node} was told to start again, and no boot-up message came within 5 s");
+    Err(report.refuse(
+        Diagnostic::without_place(codes::ACCESS_FAILED, message).help("check node-ID, bit rate and power"),
+    ))
+}
+
+pub(super) fn store(args: &NodeGroupArgs, report: &Report) -> Result<u8, u8> {
+    let done = format!("node {} has stored its parameters", args.node.trim());
+    sign(args, 0x1010, *b"save", "store its parameters", &done, report)
+}
+
+pub(super) fn load_defaults(args: &NodeGroupArgs, report: &Report) -> Result<u8, u8> {
+    let done = format!(
+        "node {0} takes its defaults with the next reset: `odgen node nmt reset-node --node {0}`",
+        args.node.trim()
+    );
+    sign(args, 0x1011, *b"load", "load its defaults", &done, report)
+}
+
+/// Writes a signature, which makes a node do something with a group of its parameters.
+fn sign(
+    args: &NodeGroupArgs,
+    index: u16,
+    signature: [u8; 4],
+    what: &str,
+    done: &str,
+    report: &Report,
+) -> Result<u8, u8> {
+    let node = node_id(&args.node).map_err(|diagnostic| report.refuse(diagnostic))?;
+    let id = EntryId { index: Index(index), sub: SubIndex(args.group) };
+    let mut client = connect(&args.link, report)?;
+    match client.write(node, id, &signature) {
+        Ok(()) => Ok(print(&format!("{done}\n"))),
+        Err(error) => {
+            let message = format!("node {node} does not {what} ({id}): {error}");
+            let diagnostic = Diagnostic::without_place(codes::ACCESS_FAILED, message);
+            Err(report.refuse(match error {
+                AccessError::Silent => diagnostic
+                    .help("check node-ID, bit rate and power; storing may take long: `--timeout MS`"),
+                _ => diagnostic,
+            }))
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! Messages to standard error, results to standard output.
+
+use std::fmt::Write as _;
+use std::io::{IsTerminal as _, Write as _};
+use std::path::Path;
+
+use od_formats::findings::json;
+use od_gen::condense;
+use od_gen::source::{FileLoader, compile_file};
+use od_spec::diag::render;
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::eds::is_eds;
+use od_spec::model::{Dictionary, System};
+use od_spec::source::SourceMap;
+use od_spec::visible::{printable, visible, visible_json};
+use od_spec::xdd::is_xdd;
+use od_spec::{Commissioning, Compiled};
+
+use crate::exit::{ERRORS, SUCCESS, USAGE};
+use crate::listing::{Most, for_people};
+use crate::messages::{Color, Format};
+use crate::progress::Audience;
+
+/// Writes diagnostics the way the user asked for.
+pub(crate) struct Report {
+    format: Format,
+    colour: bool,
+}
+
+/// What a command works on.
+pub(crate) struct Used {
+    pub(crate) system: System,
+    /// Of a DCF: the node that it configures.
+    pub(crate) node: Option<Commissioning>,
+    /// The node-ID that a DCF states.
+    pub(crate) stated_node_id: Option<u8>,
+    /// Of a parameter file: the device that it is for.
+    pub(crate) device: Option<String>,
+}
+
+impl Used {
+    /// The node of a DCF that states which one it is.
+    pub(crate) fn stated_node(&self) -> Option<Commissioning> {
+        self.node.clone().filter(|_| self.stated_node_id.is_some())
+    }
+}
+
+impl Report {
+    pub(crate) fn new(format: Format, color: Color) -> Self {
+        let colour = match color {
+            Color::Always => true,
+            Color::Never => false,
+            Color::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
+        };
+        Self { format, colour }
+    }
+
+    /// Who reads the messages.
+    pub(crate) const fn audience(&self) -> Audience {
+        match self.format {
+            Format::Human | Format::Short => Audience::People,
+            Format::Json => Audience::Programs,
+        }
+    }
+
+    /// Whether messages are coloured.
+    pub(crate) const fn colour(&self) -> bool {
+        self.colour
+    }
+
+    /// Writes messages that are text already.
+    pub(crate) fn write(&self, text: &str) {
+        let _ = std::io::stderr().write_all(printable(text, self.colour).as_bytes());
+    }
+
+    /// Writes what is wrong and, for people, how much it is; notes are for `odgen check --notes`.
+    pub(crate) fn show(&self, diagnostics: &Diagnostics, sources: &SourceMap) {
+        let diagnostics = &diagnostics.clone().without_notes();
+        let mut text = match self.format {
+            Format::Human => {
+                let source = sources.files().next().map(|(_, file)| file);
+                let most = match source {
+                    Some(file) if is_eds(file.name(), file.text()) || is_xdd(file.name(), file.text()) => {
+                        Most::OfEds
+                    }
+                    Some(_) | None => Most::OfSpecification,
+                };
+                let shows = match source {
+                    Some(file) => format!("`odgen check {} --all`", visible(file.name())),
+                    None => "`odgen check --all`".to_owned(),
+                };
+                for_people(diagnostics, sources, most, &shows, self.colour)
+            }
+            Format::Short => render::render(diagnostics, sources, render::Format::Short, self.colour),
+            Format::Json => json(diagnostics, sources),
+        };
+        let summary = render::summary(diagnostics);
+        if self.format == Format::Human && !summary.is_empty() {
+            // An error before a warning, wherever it stands.
+            let first = diagnostics.iter().min_by_key(|one| one.severity()).map_or("", |first| first.code.id);
+            let _ = writeln!(text, "{summary}; `odgen explain {first}` tells more");
+        }
+        self.write(&text);
+    }
+
+    /// Tells people what the command does unasked; programs that read JSON did not ask.
+    pub(crate) fn note(&self, text: &str) {
+        if self.format != Format::Json {
+            self.write(&format!("note: {text}\n"));
+        }
+    }
+
+    /// Compiles a file and shows what there is to say, about an EDS or DCF how much; `None` when it cannot be used.
+    pub(crate) fn compile(&self, path: &Path) -> Option<System> {
+        self.compile_with_sources(path).map(|(Used { system, .. }, _)| system)
+    }
+
+    /// [`compile`](Self::compile), with the node of a DCF and the texts that were read.
+    pub(crate) fn compile_with_sources(&self, path: &Path) -> Option<(Used, SourceMap)> {
+        let mut sources = SourceMap::new();
+        let mut compiled = compile_file(path, &mut sources, &mut FileLoader::default());
+        if let Some(line) = condense(path, &mut compiled) {
+            self.note(&line);
+        }
+        let Compiled { system, node, stated_node_id, diagnostics, .. } = compiled;
+        self.show(&diagnostics, &sources);
+        Some((Used { system: system?, node, stated_node_id, device: None }, sources))
+    }
+
+    /// Shows one message that has no place in a source text.
+    pub(crate) fn refuse(&self, diagnostic: Diagnostic) -> u8 {
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.push(diagnostic);
+        let of_the_command_line =
+            [codes::BAD_NODE_ID, codes::UNKNOWN_DEVICE, codes::UNKNOWN_WORD, codes::BAD_NOTATION];
+        let is_usage = diagnostics.iter().all(|diagnostic| of_the_command_line.contains(&diagnostic.code));
+        let code = if is_usage { USAGE } else { ERRORS };
+        self.show(&diagnostics, &SourceMap::new());
+        code
+    }
+
+    /// Shows that none of the specifications has a device.
+    pub(crate) fn unknown_device<'a>(&self, systems: impl Iterator<Item = &'a System>, key: &str) -> u8 {
+        let keys = systems.flat_map(|system| &system.devices).map(|device| format!("`{}`", device.key));
+        self.refuse(
+            Diagnostic::without_place(codes::UNKNOWN_DEVICE, format!("there is no device `{key}`"))
+                .help(format!("the devices are {}", keys.collect::<Vec<_>>().join(", "))),
+        )
+    }
+
+    /// The device with this key, or the only one.
+    pub(crate) fn device_or_only<'a>(
+        &self,
+        system: &'a System,
+        key: Option<&str>,
+    ) -> Result<&'a Dictionary, u8> {
+        match (key, system.devices.as_slice()) {
+            (Some(key), _) => self.device(system, key),
+            (None, [only]) => Ok(only),
+            (None, devices) => {
+                let keys: Vec<String> = devices.iter().map(|device| format!("`{}`", device.key)).collect();
+                let message = format!("no device is named, and the specification has {}", devices.len());
+                let help = match keys.as_slice() {
+                    [] => "name a specification that describes devices, not a library".to_owned(),
+                    keys => format!("add `--device KEY`: {}", keys.join(", ")),
+                };
+                Err(self.refuse(Diagnostic::without_place(codes::UNKNOWN_DEVICE, message).help(help)))
+            }
+        }
+    }
+
+    /// The device with this key.
+    pub(crate) fn device<'a>(&self, system: &'a System, key: &str) -> Result<&'a Dictionary, u8> {
+        system.device(key).ok_or_else(|| {
+            let keys: Vec<String> = system.devices.iter().map(|device| format!("`{}`", device.key)).collect();
+            self.refuse(
+                Diagnostic::without_place(codes::UNKNOWN_DEVICE, format!("there is no device `{key}`"))
+                    .help(format!("the specification has {}", keys.join(", "))),
+            )
+        })
+    }
+}
+
+/// A node-ID from the command line.
+pub(crate) fn node_id(text: &str) -> Result<u8, Diagnostic> {
+    let number = od_spec::scalar::integer(text.trim()).ok().and_then(|number| u8::try_from(number).ok());
+    number.filter(|node| (1..=127).contains(node)).ok_or_else(|| {
+        Diagnostic::without_place(codes::BAD_NODE_ID, format!("found `{text}`, expected a node-ID"))
+            .help("node-IDs are 1 to 127")
+    })
+}
+
+/// Writes a result. What it quotes from outside cannot command a terminal.
+pub(crate) fn print(text: &str) -> u8 {
+    write_out(printable(text, false).as_bytes())
+}
+
+/// Writes a result that is coloured for a terminal.
+pub(crate) fn print_styled(text: &str) -> u8 {
+    write_out(printable(text, true).as_bytes())
+}
+
+/// Writes a result in JSON.
+pub(crate) fn print_json(bytes: &[u8]) -> u8 {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => write_out(visible_json(text).as_bytes()),
+        Err(_) => write_out(bytes),
+    }
+}
+
+/// A text of a file as it is: what comes out is to be a file again.
+pub(crate) fn print_file(text: &str) -> u8 {
+    write_out(text.as_bytes())
+}
+
+/// A path on one line.
+pub(crate) fn shown(path: &Path) -> String {
+    visible(&path.to_string_lossy()).into_owned()
+}
+
+fn write_out(bytes: &[u8]) -> u8 {
+    let mut out = std::io::stdout().lock();
+    // What is still in the buffer when the process ends is lost without a word.
+    out.write_all(bytes).and_then(|()| out.flush()).map_or_else(|error| not_printed(&error), |()| SUCCESS)
+}
+
+/// The exit code when a result cannot be written; a reader that went away early is no error.
+pub(crate) fn not_printed(error: &std::io::Error) -> u8 {
+    if error.kind() == std::io::ErrorKind::BrokenPipe {
+        return SUCCESS;
+    }
+    anstream::eprintln!("error: cannot write to standard output: {error}");
+    ERRORS
+}

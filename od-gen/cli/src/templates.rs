@@ -1,0 +1,122 @@
+//! Templates of a format, with the user's own laid over them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use docs_gen::{TemplateError, Templates};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::source::SourceMap;
+
+use crate::exit::ERRORS;
+use crate::report::Report;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DocsFormat {
+    /// Markdown: a file per chapter, device and appendix
+    Md,
+    /// HTML: a file for the system and one per device, each complete in itself
+    Html,
+    /// HTML to be printed: a file for everything, with title, contents and page numbers
+    Print,
+}
+
+impl From<DocsFormat> for docs_gen::Format {
+    fn from(format: DocsFormat) -> Self {
+        match format {
+            DocsFormat::Md => docs_gen::Format::Markdown,
+            DocsFormat::Html => docs_gen::Format::Html,
+            DocsFormat::Print => docs_gen::Format::Print,
+        }
+    }
+}
+
+/// Why there are no templates.
+pub(crate) enum Problem {
+    /// A file or directory cannot be read.
+    Unreadable(String),
+    /// A template is wrong; the directory where the user's own lie.
+    Template(TemplateError, Option<PathBuf>),
+}
+
+impl Problem {
+    pub(crate) fn show(self, report: &Report) -> u8 {
+        match self {
+            Problem::Unreadable(message) => report.refuse(
+                Diagnostic::without_place(codes::UNREADABLE, message)
+                    .help("`odgen docs --export-templates DIR` writes templates to start from"),
+            ),
+            Problem::Template(error, _) if error.template.is_empty() => report.refuse(
+                Diagnostic::without_place(codes::BAD_TEMPLATE, error.message)
+                    .help("give the device another key, or the template of devices another extension"),
+            ),
+            Problem::Template(error, directory) => {
+                let replaced =
+                    directory.map(|directory| directory.join(&error.template)).filter(|path| path.exists());
+                let name = replaced.map_or_else(
+                    || format!("(built-in) {}", error.template),
+                    |path| path.display().to_string(),
+                );
+                let mut sources = SourceMap::new();
+                let file = sources.add(name, error.source);
+                let mut diagnostics = Diagnostics::new();
+                let span = sources.whole(file);
+                let (start, end) = (error.range.start, error.range.end);
+                diagnostics.push(
+                    Diagnostic::new(codes::BAD_TEMPLATE, span.part(start, end.max(start + 1)), error.message)
+                        .help("`odgen docs --dump-context` prints what templates see"),
+                );
+                report.show(&diagnostics, &sources);
+                ERRORS
+            }
+        }
+    }
+}
+
+/// The templates of each format, or of none, each with those of the user's directory over them.
+pub(crate) fn templates(formats: &[DocsFormat], directory: Option<&Path>) -> Result<Vec<Templates>, Problem> {
+    let files = directory.map(read).transpose()?.unwrap_or_default();
+    let wrong = |error| Problem::Template(error, directory.map(Path::to_owned));
+    if formats.is_empty() {
+        return Ok(vec![Templates::new(None, &files).map_err(wrong)?]);
+    }
+    formats
+        .iter()
+        .map(|format| {
+            // Of a user's files for several formats, those for this one.
+            let format = docs_gen::Format::from(*format);
+            let known: Vec<&str> = format.files().iter().filter_map(|(name, _)| extension(name)).collect();
+            let several = formats.len() > 1;
+            let fits =
+                |name: &str| !several || extension(name).is_some_and(|extension| known.contains(&extension));
+            let files: Vec<(String, String)> = files.iter().filter(|(name, _)| fits(name)).cloned().collect();
+            Templates::new(Some(format), &files)
+        })
+        .collect::<Result<_, _>>()
+        .map_err(wrong)
+}
+
+fn extension(name: &str) -> Option<&str> {
+    name.rsplit_once('.').map(|(_, extension)| extension)
+}
+
+/// Name and text of the files of a directory.
+fn read(directory: &Path) -> Result<Vec<(String, String)>, Problem> {
+    let problem = |path: &Path, error: &dyn std::fmt::Display| {
+        Problem::Unreadable(format!("cannot read {}: {error}", path.display()))
+    };
+    let mut files = Vec::new();
+    for entry in fs::read_dir(directory).map_err(|error| problem(directory, &error))? {
+        let path = entry.map_err(|error| problem(directory, &error))?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_file() && !name.starts_with('.') {
+            let text = fs::read_to_string(&path).map_err(|error| problem(&path, &error))?;
+            files.push((name, text));
+        }
+    }
+    if files.is_empty() {
+        return Err(Problem::Unreadable(format!("there are no templates in {}", directory.display())));
+    }
+    files.sort();
+    Ok(files)
+}

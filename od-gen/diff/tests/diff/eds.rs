@@ -1,0 +1,141 @@
+//! Comparison with an EDS, which states fewer facts.
+
+use std::collections::BTreeMap;
+
+use od_diff::{Question, Scope, Unpaired, compare, human, short};
+use od_spec::ascii::transliterate;
+use od_spec::model::{Dictionary, Entry, Storage, System, Text, Value};
+
+use crate::shipped::PITCH;
+use crate::{FULLMO, PITCH_SYSTEM, system};
+
+/// What is left of a device in its EDS: what the keys of the format say.
+fn as_eds(system: &System, key: &str) -> System {
+    let mut eds = system.clone();
+    eds.devices.retain(|device| device.key == key);
+    (eds.units, eds.types, eds.machines) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    eds.errors.clear();
+    eds.constraints.clear();
+    eds.errata.clear();
+    eds.document = od_spec::model::Document::default();
+    "an EDS".clone_into(&mut eds.title);
+    eds.vendor.name = transliterate(&eds.vendor.name);
+    for device in &mut eds.devices {
+        device.about = Text::default();
+        device.name.clone_from(&device.info.product_name);
+        for object in device.objects.values_mut() {
+            object.name = transliterate(&object.name);
+            object.about = Text::default();
+            (object.category, object.since, object.identifier) = (None, None, None);
+            object.entries.iter_mut().for_each(strip);
+        }
+    }
+    eds
+}
+
+fn strip(entry: &mut Entry) {
+    let (low, high) = entry.hull();
+    (entry.low, entry.high) = (low, high);
+    (entry.access, entry.locked) = (entry.eds.access, false);
+    entry.name = transliterate(&entry.name);
+    entry.about = Text::default();
+    (entry.named_type, entry.unit, entry.alias, entry.writable_when) = (None, None, None, None);
+    (entry.category, entry.since, entry.identifier, entry.capacity) = (None, None, None, None);
+    entry.special.clear();
+    entry.bit_errors.clear();
+    entry.stored = Storage::No;
+    if !entry.eds.default {
+        entry.default = None;
+    }
+    entry.eds.default = true;
+}
+
+fn ask<'a>(old: &'a System, new: &'a System, scope: Scope) -> Question<'a> {
+    Question { old, new, scope, device: None, nodes: None }
+}
+
+#[test]
+fn a_specification_does_not_differ_from_its_own_eds() {
+    for (text, keys) in [(&PITCH, &["pmm", "pmc"][..]), (&FULLMO, &["fullmo"])] {
+        let spec = system(text);
+        let keys = if keys == ["fullmo"] {
+            vec![spec.devices[0].key.clone()]
+        } else {
+            keys.iter().map(ToString::to_string).collect()
+        };
+        for key in keys {
+            let eds = as_eds(&spec, &key);
+            for question in
+                [ask(&spec, &eds, Scope::WhatAnEdsStates), ask(&eds, &spec, Scope::WhatAnEdsStates)]
+            {
+                let found = compare(&question).unwrap();
+                assert_eq!(short(&found), "", "{key}");
+                assert_eq!(found.devices.len(), 1);
+            }
+            // With all facts, they differ; so the comparison above can fail.
+            let all = compare(&Question { device: Some(&key), ..ask(&spec, &eds, Scope::Everything) });
+            assert!(all.unwrap().changes().count() > 100);
+        }
+    }
+}
+
+#[test]
+fn a_dcf_has_the_node_id_as_a_number() {
+    let spec = &*PITCH_SYSTEM;
+    let mut dcf = as_eds(spec, "pmc");
+    let resolve = |device: &mut Dictionary| {
+        for entry in device.objects.values_mut().flat_map(|object| &mut object.entries) {
+            if let Some(Value::NodeId(offset)) = entry.default {
+                entry.default = Some(Value::Integer(i128::from(offset) + 5));
+            }
+        }
+    };
+    dcf.devices.iter_mut().for_each(resolve);
+    let found = compare(&ask(spec, &dcf, Scope::WhatADcfStates)).unwrap();
+    assert_eq!(short(&found), "");
+    let found = compare(&ask(spec, &dcf, Scope::WhatAnEdsStates)).unwrap();
+    assert!(short(&found).contains("1400h.1"), "{}", short(&found));
+}
+
+#[test]
+fn what_an_eds_states_is_compared() {
+    let spec = &*PITCH_SYSTEM;
+    let changed = PITCH
+        // An EDS says nothing of these …
+        .replacen("decicelsius: {symbol: °C, scale: 1/10", "decicelsius: {symbol: °C, scale: 1/5", 1)
+        .replacen("name: test active", "name: test running", 1)
+        // … and states these.
+        .replacen("default: 0 min\n    min: 60 min", "default: 0 min\n    min: 0 min\n    max: 600 min", 1)
+        .replacen("    name: battery test voltage\n", "    name: test voltage\n", 1);
+    let eds = as_eds(&system(&changed), "pmm");
+    let found = compare(&ask(spec, &eds, Scope::WhatAnEdsStates)).unwrap();
+    let lines = short(&found);
+    // Defaults of stored entries are withheld, raw limits did not change.
+    assert_eq!(
+        lines.lines().collect::<Vec<_>>(),
+        [
+            "pmm: ~ 3068h test voltage: name: battery test voltage -> test voltage [plc]",
+            "pmm: ~ 30E3h selftest time: max: none -> 600 [plc]",
+        ]
+    );
+    let text = human(&found, false);
+    assert!(
+        text.ends_with("and nothing that follows from them for firmware and stored parameters\n"),
+        "{text}"
+    );
+}
+
+/// An EDS describes one device; which of a system's it is, its name tells, or the user.
+#[test]
+fn the_device_of_an_eds_has_to_be_known() {
+    let spec = &*PITCH_SYSTEM;
+    let mut eds = as_eds(spec, "pmc");
+    eds.devices[0].key = "axis".to_owned();
+    let question = ask(spec, &eds, Scope::WhatAnEdsStates);
+    let keys = vec!["pmm".to_owned(), "pmc".to_owned()];
+    assert_eq!(compare(&question), Err(Unpaired::WhichDevice { keys }));
+    let found = compare(&Question { device: Some("pmc"), ..question }).unwrap();
+    assert_eq!((found.devices.len(), short(&found).as_str()), (1, ""));
+    let found = compare(&Question { device: Some("pmm"), ..question }).unwrap();
+    assert!(found.changes().count() > 50, "the other device is another one");
+}

@@ -1,0 +1,83 @@
+//! The files that a specification becomes for PLC tools and programs.
+
+use std::borrow::Cow;
+
+use od_gen::Artifact;
+use od_spec::Commissioning;
+use od_spec::model::{Devices, Dictionary, System};
+
+use crate::xdd;
+use crate::{eds, json};
+
+/// What [`artifacts`] makes.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Selection<'a> {
+    /// Keys of the devices; empty for all.
+    pub devices: &'a [String],
+    /// Also a DCF of each device for this node-ID.
+    pub node: Option<u8>,
+    /// The node of the DCF that the system was read from, with its values; on the node-ID above, if there is one.
+    pub configured: Option<&'a Commissioning>,
+    /// Also an XDD of each device, and an XDC beside each DCF.
+    pub xdd: bool,
+}
+
+/// The files of one specification: an EDS per device, perhaps a DCF and the same in XML, and the JSON dump under the name `stem`.
+pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<Artifact> {
+    let devices = Devices::listed(selection.devices);
+    let wanted = |device: &&Dictionary| devices.includes(&device.key);
+    let configured = selection.configured.map(|configured| {
+        let mut configured = configured.clone();
+        configured.node = selection.node.unwrap_or(configured.node);
+        configured
+    });
+    // The dump is half of the work, and independent of the rest.
+    std::thread::scope(|scope| {
+        let files = scope.spawn(|| {
+            let mut list = Vec::new();
+            let mut beside: Vec<Artifact> = Vec::new();
+            for device in system.devices.iter().filter(wanted) {
+                let path = format!("eds/{}.eds", device.key);
+                let bytes = eds::write_eds(system, device);
+                list.push(Artifact { path, bytes, purpose: "import this into the PLC tool".to_owned() });
+                if selection.xdd {
+                    let path = format!("xdd/{}.xdd", device.key);
+                    let bytes = xdd::write_xdd(system, device);
+                    beside.push(Artifact {
+                        path,
+                        bytes,
+                        purpose: "the same for tools that read XML".to_owned(),
+                    });
+                }
+                let of_node = || selection.node.map(|node| Cow::Owned(Commissioning::of_node(device, node)));
+                let commissioning = configured.as_ref().map(Cow::Borrowed).or_else(of_node);
+                if let Some(commissioning) = commissioning {
+                    let node = commissioning.node;
+                    let file = format!("{}.dcf", device.key);
+                    let bytes = eds::write_dcf(system, device, &commissioning, &file);
+                    let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);
+                    list.push(Artifact { path: format!("eds/{file}"), bytes, purpose });
+                    if selection.xdd {
+                        let file = format!("{}.xdc", device.key);
+                        let bytes = xdd::write_xdc(system, device, &commissioning, &file);
+                        let purpose = format!("the DCF for node {node} for tools that read XML");
+                        beside.push(Artifact { path: format!("xdd/{file}"), bytes, purpose });
+                    }
+                }
+            }
+            list.append(&mut beside);
+            list
+        });
+        let bytes = match &configured {
+            Some(node) => json::dump_node(system, selection.devices, node),
+            None => json::dump(system, selection.devices),
+        };
+        let mut list = files.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        list.push(Artifact {
+            path: format!("{stem}.json"),
+            bytes,
+            purpose: "the resolved model, for programs".to_owned(),
+        });
+        list
+    })
+}

@@ -1,0 +1,341 @@
+//! Specifications: a model as the text that a person would write for it.
+//!
+//! What comes out compiles, and gives the model that went in. Objects that a library defines are taken from it, PDOs stand under
+//! `pdos:`, and what entries have in common is said once – each time only if the text then says the same. What the language
+//! refuses is left out or changed, as little as possible, and a comment tells what the model says.
+
+mod compare;
+mod context;
+mod departures;
+mod device;
+mod eds;
+mod emit;
+mod entry;
+mod features;
+mod fold;
+mod mend;
+mod names;
+mod node;
+mod objects;
+mod options;
+mod pdo_names;
+mod pdo_obstacles;
+mod pdo_parameters;
+mod pdos;
+mod remarks;
+mod runs;
+mod scalar;
+mod text;
+mod texts;
+mod types;
+mod value;
+
+use std::collections::BTreeSet;
+use std::sync::{Arc, LazyLock};
+
+use od_gen::plan::{Words, decided};
+use od_gen::rust::Rust;
+use od_spec::diag::{Diagnostic, Diagnostics, Severity};
+use od_spec::model::{Dictionary, EntryId, Index, System, Value};
+use od_spec::source::SourceMap;
+use od_spec::{LIBRARIES, Library, NoFiles, compile, library, library_in};
+
+use context::Style;
+use emit::Written;
+use mend::{Draft, Effort};
+use node::Spot;
+pub(crate) use node::{Item, Node};
+pub use options::{Options, Place};
+use remarks::Remarks;
+pub use remarks::Repair;
+pub use scalar::spelled;
+pub(crate) use value::value;
+
+/// A document of these keys.
+pub(crate) fn written(items: &[Item]) -> String {
+    emit::write(items).text
+}
+
+/// A specification that was written for a model.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Specification {
+    /// The text; it compiles.
+    pub text: String,
+    /// What it says otherwise than the model; the text has a comment for each.
+    pub repairs: Vec<Repair>,
+    /// The rules that the model breaks, by code: the text allows them, each with what was found.
+    pub allowed: Vec<&'static str>,
+    /// What the model has and the text does not: parts of a specification that no EDS can hold.
+    pub left_out: Vec<String>,
+}
+
+/// Most rounds in which single facts are given up.
+const ROUNDS_FOR_FACTS: usize = 40;
+/// Most rounds in all.
+const ROUNDS: usize = 200;
+/// Most attempts to write short forms.
+const ATTEMPTS: usize = 12;
+
+/// The built-in libraries in English, each read once.
+static BUILT_IN: LazyLock<Vec<Arc<Library>>> =
+    LazyLock::new(|| LIBRARIES.iter().filter_map(|(name, _)| library(name)).map(Arc::new).collect());
+
+/// The built-in libraries with their texts in the languages of a system.
+fn built_in(languages: &[String]) -> Vec<Arc<Library>> {
+    if languages == ["en"] {
+        return BUILT_IN.clone();
+    }
+    LIBRARIES.iter().filter_map(|(name, _)| library_in(name, languages)).map(Arc::new).collect()
+}
+
+/// Writes a device of a system as a specification of its own.
+///
+/// ```
+/// use od_import::yaml::{Options, specification};
+/// use od_spec::source::SourceMap;
+/// use od_spec::{NoFiles, compile};
+///
+/// let mut sources = SourceMap::new();
+/// let root = sources.add("lamp.od.yaml", "
+/// od-spec: 1
+/// title: Lamp
+/// uses: [cia301]
+/// devices: {lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}}
+/// objects:
+///   0x2000: {name: brightness, type: unsigned8, access: rw, default: 80, max: 100}
+/// ");
+/// let system = compile(&mut sources, root, &mut NoFiles).system.expect("no errors");
+/// let written = specification(&system, &system.devices[0], &Options::default()).expect("it can be written");
+/// assert!(written.text.ends_with("
+/// objects:
+///   0x2000: {name: brightness, type: unsigned8, access: rw, default: 80, max: 100}
+/// "));
+/// assert!(written.repairs.is_empty());
+/// ```
+///
+/// # Errors
+/// What the language still refuses where nothing more can be left out: a device without a valid key, for example.
+pub fn specification(
+    system: &System,
+    device: &Dictionary,
+    options: &Options,
+) -> Result<Specification, Diagnostics> {
+    let mut draft = Draft { system: system.clone(), device: device.clone() };
+    // The only device of a draft is its own.
+    draft.system.devices.clear();
+    let mut left_out = leave_out(&mut draft);
+    name_device(&mut draft);
+    withhold(&mut draft);
+    let mut remarks = Remarks::default();
+    names::settle(&mut draft.device, &mut remarks.repairs);
+    // What code needs of it, as it is decided for code made from the EDS itself.
+    draft.device = decided(&draft.system, &draft.device, &Rust).into_owned();
+    spell_identifiers(&mut draft.device);
+    let (plain, found) = mended(&mut draft, options, &mut remarks)?;
+    let not_said = compare::differing(&draft.device, &found);
+    left_out.extend(not_said.iter().map(|index| format!("facts about {index} for which there are no keys")));
+    let text = short(&draft, &found, options, &remarks).unwrap_or(plain).text;
+    let allowed = remarks.allowed.into_keys().collect();
+    Ok(Specification { text, repairs: remarks.repairs, allowed, left_out })
+}
+
+/// An identifier of a specification is spelled as one.
+fn spell_identifiers(device: &mut Dictionary) {
+    for object in device.objects.values_mut() {
+        let of_entries = object.entries.iter_mut().map(|entry| &mut entry.identifier);
+        for identifier in of_entries.chain([&mut object.identifier]) {
+            *identifier = identifier.take().map(|name| Words::of(&name).snake());
+        }
+    }
+}
+
+/// Takes out what a specification made of an EDS does not have; tells what that was.
+fn leave_out(draft: &mut Draft) -> Vec<String> {
+    let mut left_out = Vec::new();
+    let mut say = |what: String, is_there: bool| left_out.extend(is_there.then_some(what));
+    let system = &draft.system;
+    let document = &system.document;
+    say(
+        "the printed manual and its revisions".to_owned(),
+        document.source.is_some() || document.revision.is_some(),
+    );
+    say("error codes".to_owned(), !system.errors.is_empty());
+    say("state machines".to_owned(), !system.machines.is_empty());
+    say("constraints".to_owned(), !system.constraints.is_empty());
+    say("errata".to_owned(), !system.errata.is_empty());
+    for object in draft.device.objects.values_mut() {
+        for entry in &mut object.entries {
+            if let Some(alias) = entry.alias.take() {
+                left_out.push(format!("{} is a view of {}", object.index, alias.target));
+            }
+        }
+    }
+    left_out
+}
+
+/// A device fills in its type, name and identity where no value is stated; of values that the model leaves open, the EDS shall
+/// show none.
+fn withhold(draft: &mut Draft) {
+    let Draft { system, device } = draft;
+    let open: Vec<(EntryId, Value)> = device
+        .entries()
+        .filter(|(.., entry)| entry.default.is_none())
+        .filter_map(|(id, ..)| Some((id, entry::device_value(system, device, id.index, id.sub)?)))
+        .collect();
+    for (id, value) in open {
+        let object = device.objects.get_mut(&id.index);
+        let entry = object.and_then(|object| object.entries.iter_mut().find(|entry| entry.sub == id.sub));
+        if let Some(entry) = entry {
+            entry.default = Some(value);
+            entry.eds.default = false;
+        }
+    }
+}
+
+/// A specification has a title and its device a name, which no EDS shows; where the model has none, the product's stands in.
+fn name_device(draft: &mut Draft) {
+    let (title, device) = (&mut draft.system.title, &mut draft.device);
+    let named = |text: &str| !text.trim().is_empty();
+    if !named(&device.name) {
+        let product = Some(&device.info.product_name).filter(|name| named(name));
+        device.name = product.unwrap_or(&device.key).clone();
+    }
+    if !named(title) {
+        title.clone_from(&device.name);
+    }
+}
+
+/// The errors of a text.
+fn errors(written: &Written) -> (Option<System>, Vec<Diagnostic>) {
+    let mut sources = SourceMap::new();
+    let root = sources.add("specification.od.yaml", written.text.as_str());
+    let compiled = compile(&mut sources, root, &mut NoFiles);
+    let errors = compiled.diagnostics.iter().filter(|one| one.severity() == Severity::Error);
+    (compiled.system, errors.cloned().collect())
+}
+
+/// Changes the model until its plain text compiles; that text, and what it gives.
+fn mended(
+    draft: &mut Draft,
+    options: &Options,
+    remarks: &mut Remarks,
+) -> Result<(Written, Dictionary), Diagnostics> {
+    let mut last = Vec::new();
+    for round in 0..ROUNDS {
+        let written = text::write(&draft.system, &draft.device, options, remarks, &Style::default());
+        let (system, errors) = errors(&written);
+        if let Some(found) = system.and_then(|mut system| system.devices.pop()) {
+            follow(&mut draft.device, &found);
+            return Ok((written, found));
+        }
+        let effort = if round < ROUNDS_FOR_FACTS { Effort::Fact } else { Effort::Object };
+        let before = remarks.decisions();
+        let allowed: BTreeSet<&'static str> = remarks.allowed.keys().copied().collect();
+        let mut mended: BTreeSet<usize> = BTreeSet::new();
+        for error in &errors {
+            if remarks.allow(error, blamed(draft, &written, error), &allowed) {
+                continue;
+            }
+            // Of several messages about one place, the first may take the others with it.
+            let at = error.labels.first().map(|label| label.span.start as usize);
+            let spot = at.and_then(|at| written.narrowest(at));
+            if spot.is_none_or(|spot| mended.insert(spot)) {
+                remarks.repairs.extend(draft.mend(&written, error, effort));
+            }
+        }
+        last = errors;
+        let after = remarks.decisions();
+        remarks.forget_what_is_gone(&draft.device);
+        if after == before {
+            break;
+        }
+    }
+    let mut diagnostics = Diagnostics::new();
+    for error in last {
+        diagnostics.push(error);
+    }
+    Err(diagnostics)
+}
+
+/// Takes the PDOs as they follow from the parameter objects that are left; they keep their descriptions.
+fn follow(device: &mut Dictionary, found: &Dictionary) {
+    let before = std::mem::replace(&mut device.pdos, found.pdos.clone());
+    for pdo in &mut device.pdos {
+        let same = before.iter().find(|one| (one.direction, one.number) == (pdo.direction, pdo.number));
+        pdo.about = same.map(|one| one.about.clone()).unwrap_or_default();
+    }
+}
+
+/// Whether a library describes a device profile, and the device type names another one that has a library: profiles
+/// give the same indices to different objects.
+fn is_of_another_profile(device: &Dictionary, library: &Library) -> bool {
+    let device_type =
+        device.objects.get(&Index(0x1000)).and_then(|object| object.entries.first()?.default.as_ref());
+    let Some(device_type) = device_type.and_then(Value::integer) else { return false };
+    let named = format!("cia{}", device_type & 0xFFFF);
+    let is_profile = |name: &str| name.strip_prefix("cia").is_some_and(|number| number >= "401");
+    is_profile(&library.name) && library.name != named && BUILT_IN.iter().any(|one| one.name == named)
+}
+
+/// A short text that gives what the plain one gives; `None` where none was found.
+fn short(draft: &Draft, plain: &Dictionary, options: &Options, remarks: &Remarks) -> Option<Written> {
+    let has = |index: &Index| draft.device.objects.contains_key(index);
+    let usable = |library: &&Arc<Library>| {
+        // What every device has that uses it cannot be left out.
+        let implied = library.features.iter().filter(|feature| feature.implied);
+        implied.flat_map(|feature| &feature.objects).all(has)
+            && library.objects.keys().any(has)
+            && !is_of_another_profile(&draft.device, library)
+    };
+    let libraries = built_in(&draft.system.languages).iter().filter(usable).cloned().collect();
+    let mut style = Style { libraries, features: true, short: true, ..Style::default() };
+    for _ in 0..ATTEMPTS {
+        let written = text::write(&draft.system, &draft.device, options, remarks, &style);
+        let (system, errors) = errors(&written);
+        let found = system.as_ref().and_then(|system| system.devices.first());
+        let wrong: BTreeSet<Index> = match found {
+            Some(found) => compare::differing(plain, found).into_iter().collect(),
+            None => errors.iter().filter_map(|error| blamed(draft, &written, error)).collect(),
+        };
+        if found.is_some() && wrong.is_empty() {
+            return Some(written);
+        }
+        if !longer(&mut style, draft, &wrong) {
+            return None;
+        }
+    }
+    None
+}
+
+/// The object that a message about a text is about.
+fn blamed(draft: &Draft, written: &Written, error: &Diagnostic) -> Option<Index> {
+    let at = error.labels.first()?.span.start as usize;
+    match written.spot(at)? {
+        Spot::Object(index) | Spot::ObjectFact(index, _) => Some(*index),
+        Spot::Entry(id) | Spot::EntryFact(id, _) => Some(id.index),
+        Spot::Pdo(direction, number) => {
+            let pdo =
+                draft.device.pdos.iter().find(|pdo| (pdo.direction, pdo.number) == (*direction, *number));
+            pdo.map(|pdo| Index(pdo.communication_index()))
+        }
+        Spot::Vendor | Spot::Device | Spot::Type(_) | Spot::Unit(_) => None,
+    }
+}
+
+/// Gives up a short form for each object that did not come out; `false` where nothing is left to give up.
+fn longer(style: &mut Style, draft: &Draft, wrong: &BTreeSet<Index>) -> bool {
+    let mut changed = false;
+    for index in wrong {
+        let parameters =
+            |pdo: &&od_spec::model::Pdo| [pdo.communication_index(), pdo.mapping_index()].contains(&index.0);
+        let pdo = draft.device.pdos.iter().find(parameters);
+        let pdo = pdo.is_some_and(|pdo| style.pdos_in_full.insert((pdo.direction, pdo.number)));
+        changed |= pdo || draft.device.objects.contains_key(index) && style.in_full.insert(*index);
+    }
+    if !changed {
+        // Not an object's own fault: features first, then libraries.
+        changed = std::mem::take(&mut style.features) || style.libraries.pop().is_some();
+    }
+    changed
+}

@@ -1,0 +1,67 @@
+//! The files of a specification, as editors show them where they are open, and as they are on the disk elsewhere.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use od_gen::source::{plain, read_file};
+use od_spec::{Loader, part_of};
+
+use super::buffer::Buffer;
+use super::place::Place;
+
+/// Open buffers by their places.
+pub(super) type Buffers = BTreeMap<Place, Buffer>;
+
+/// The bytes of a place: its buffer, or its file.
+pub(super) fn bytes_of(place: &Place, buffers: &Buffers) -> Result<Vec<u8>, String> {
+    if let Some(buffer) = buffers.get(place) {
+        return Ok(buffer.text.clone().into_bytes());
+    }
+    match place {
+        Place::File(path) => read_file(path),
+        Place::Library(_) | Place::Elsewhere(_) => Err("it is not open".to_owned()),
+    }
+}
+
+/// Reads buffers before files, and remembers which places were asked for, whether there is something or not.
+pub(super) struct Overlay<'a> {
+    buffers: &'a Buffers,
+    /// What the answer depends on.
+    pub asked: BTreeSet<Place>,
+}
+
+impl<'a> Overlay<'a> {
+    pub(super) const fn new(buffers: &'a Buffers) -> Self {
+        Self { buffers, asked: BTreeSet::new() }
+    }
+}
+
+impl Loader for Overlay<'_> {
+    fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String> {
+        let from = Path::new(from);
+        if !from.is_absolute() {
+            return Err("a text without a file has none beside it; save it first".to_owned());
+        }
+        let place = Place::File(plain(&from.parent().unwrap_or(Path::new("")).join(path)));
+        let bytes = bytes_of(&place, self.buffers);
+        self.asked.insert(place);
+        bytes
+    }
+}
+
+/// The specification that a document is a part of, if it says so and there is one; of any other document, the document.
+pub(super) fn whole(place: &Place, buffers: &Buffers) -> Place {
+    let Place::File(path) = place else { return place.clone() };
+    if !path.as_os_str().as_encoded_bytes().ends_with(b".yaml") {
+        return place.clone();
+    }
+    let read = |bytes: &[u8]| part_of(bytes).map(ToOwned::to_owned);
+    let named = match buffers.get(place) {
+        Some(buffer) => read(buffer.text.as_bytes()),
+        None => read_file(path).ok().and_then(|bytes| read(&bytes)),
+    };
+    let whole = named
+        .map(|name| Place::File(plain(&path.parent().unwrap_or(Path::new("")).join(name))))
+        .filter(|whole| buffers.contains_key(whole) || whole.path().is_some_and(Path::is_file));
+    whole.unwrap_or_else(|| place.clone())
+}

@@ -1,0 +1,71 @@
+//! Whether changed texts say the same as before.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use od_readers::remark;
+use od_spec::diag::{Diagnostic, Diagnostics};
+use od_spec::names::{DefinitionId, Names};
+use od_spec::source::{FileId, SourceMap, Span};
+use od_spec::yaml::{Node, parse};
+use od_spec::{Loader, compile};
+
+use crate::analysis::Analysis;
+
+/// Gives texts by their names.
+struct Texts(BTreeMap<String, String>);
+
+impl Loader for Texts {
+    fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String> {
+        let name = Path::new(from).parent().unwrap_or(Path::new("")).join(path).display().to_string();
+        self.0.get(&name).map(|text| text.clone().into_bytes()).ok_or_else(|| "no such file".to_owned())
+    }
+}
+
+/// Compiles the texts with changes, and refuses what is new about them.
+pub(super) fn check(now: &Analysis, changes: &[(Span, String)]) -> Result<(), String> {
+    let Some(root) = now.root else { return Err("the specification cannot be read".to_owned()) };
+    let texts =
+        now.sources.files().map(|(id, file)| (file.name().to_owned(), changed(id, file.text(), changes)));
+    let mut texts = Texts(texts.collect());
+    let name = now.sources.file(root).name();
+    let mut sources = SourceMap::new();
+    let root = sources.add(name, texts.0.get(name).cloned().unwrap_or_default());
+    let mut compiled = compile(&mut sources, root, &mut texts);
+    remark(&sources, root, &mut compiled);
+    if let Some(news) = news(&now.diagnostics, &compiled.diagnostics) {
+        return Err(format!("with this name there would be a message: {}", news.message));
+    }
+    let trees: BTreeMap<FileId, Option<Node>> =
+        sources.files().map(|(id, file)| (id, parse(id, file, &mut Diagnostics::new()))).collect();
+    let names = Names::of(&sources, root, |file| trees.get(&file)?.as_ref(), compiled.system.as_ref());
+    if targets(&names) == targets(now.names()) {
+        Ok(())
+    } else {
+        Err("with this name something would refer to something else".to_owned())
+    }
+}
+
+/// A text with its changes.
+pub(super) fn changed(file: FileId, text: &str, changes: &[(Span, String)]) -> String {
+    let (mut new, mut at) = (String::with_capacity(text.len()), 0);
+    // Changes lie in the order of their places.
+    for (span, instead) in changes.iter().filter(|(span, _)| span.file == file) {
+        new.push_str(text.get(at..span.start as usize).unwrap_or_default());
+        new.push_str(instead);
+        at = span.end as usize;
+    }
+    new.push_str(text.get(at..).unwrap_or_default());
+    new
+}
+
+/// A message of which there are more than before, of its code.
+fn news<'a>(before: &Diagnostics, after: &'a Diagnostics) -> Option<&'a Diagnostic> {
+    let count = |list: &Diagnostics, id: &str| list.iter().filter(|one| one.code.id == id).count();
+    after.iter().find(|one| count(after, one.code.id) > count(before, one.code.id))
+}
+
+/// What each reference refers to, in the order of the texts.
+fn targets(names: &Names) -> Vec<&[DefinitionId]> {
+    names.references().iter().map(|one| one.targets.as_slice()).collect()
+}

@@ -1,0 +1,16 @@
+//! What is printed of the language itself: the reference of its keys, the JSON Schema of its files, and what its messages mean.
+//!
+//! All of it follows from the tables of `od-spec`: keys, rules and codes.
+
+mod explain;
+mod json_schema;
+mod language;
+
+pub use explain::explanation;
+pub use json_schema::{json_schema, parameter_schema, plant_schema, plant_schema_of};
+pub use language::reference;
+
+/// The README's examples compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

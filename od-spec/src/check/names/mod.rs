@@ -1,0 +1,11 @@
+//! Names, texts and definitions.
+
+use super::rule::Rule;
+use crate::rules::rules;
+
+rules! { Rule:
+    names_are_unique,
+    names_fit_eds,
+    texts_fit_eds,
+    definitions_are_used,
+}

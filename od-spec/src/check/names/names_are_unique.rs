@@ -1,0 +1,117 @@
+//! Objects of one device, and entries of one object, have names of their own, also in ASCII, and none looks like another
+//! one's `object.entry`.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use crate::ascii::in_ascii;
+use crate::check::findings::Findings;
+use crate::check::help::Help;
+use crate::check::rule::{Check, Needs, Rule};
+use crate::check::subject::Subject;
+use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
+use crate::model::{DataType, Entry, Fact, Object};
+
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
+
+/// The code of the rule.
+pub const CODE: &Code = &Code {
+    id: "OD0303",
+    severity: Severity::Error,
+    foreign: Severity::Warning,
+    title: "a name stands for two things",
+    explanation: "Names are how people, PDO mappings and generated code refer to things: objects of one device, entries of one object, values and bits of one \
+        type, units and types each need a name of their own, also where an EDS writes it in ASCII. Otherwise a mapping or a parameter file could \
+        reach another entry than its author had in mind. Give one of the two another name.",
+    clause: None,
+    example: Some(Example::new(
+        "objects:\n  0x2000: {name: level, type: unsigned8, access: ro}\n  0x2001: {name: level, type: unsigned8, access: ro}",
+        "objects:\n  0x2000: {name: upper level, type: unsigned8, access: ro}\n  0x2001: {name: lower level, type: unsigned8, access: ro}",
+    )),
+};
+
+/// Objects by their names as an EDS writes them.
+type ByName<'a> = BTreeMap<Cow<'a, str>, &'a Object>;
+
+fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    let mut by_name = ByName::new();
+    for object in subject.device.objects.values() {
+        if let Some(before) = by_name.insert(in_ascii(&object.name), object) {
+            findings.push(same_name(subject, before, object));
+        }
+    }
+    for name in DataType::ALL.map(DataType::name) {
+        if let Some(object) = by_name.get(name).filter(|object| object.name == name) {
+            let message = format!("`{name}` is the name of a data type");
+            let help = "choose another name; this one means the data type wherever an object is named";
+            findings.push(Diagnostic::new(CODE, subject.object_place(object), message).help(help));
+        }
+    }
+    // Only a name with a dot can look like an object and its entry.
+    by_name.retain(|name, _| name.contains('.'));
+    for object in subject.device.objects.values().filter(|object| object.is_structured()) {
+        check_entries(subject, object, findings);
+        if !by_name.is_empty() {
+            check_dotted(subject, object, &by_name, findings);
+        }
+    }
+}
+
+/// Two objects of one name. What comes from a library is right: the message is about the other one.
+fn same_name(subject: &Subject<'_>, before: &Object, object: &Object) -> Diagnostic {
+    let is_makers = object.span.file.is_one_with(subject.device.span.file);
+    let (blamed, namesake) = if is_makers { (object, before) } else { (before, object) };
+    let name = shorten(&object.name);
+    let message =
+        format!("{} and {} of `{}` are both named `{name}`", before.index, object.index, subject.device.key);
+    Diagnostic::new(CODE, blamed.span, message)
+        .label(blamed.index.to_string())
+        .with(namesake.span, namesake.index.to_string())
+        .help("give one of the two another name; people and generated code refer to objects by name")
+}
+
+/// Two entries of one object.
+fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings) {
+    let mut by_name: BTreeMap<Cow<'_, str>, &Entry> = BTreeMap::new();
+    for entry in &object.entries {
+        let Some(before) = by_name.insert(in_ascii(&entry.name), entry) else { continue };
+        let (index, first, second) = (object.index, before.sub, entry.sub);
+        let (place, before_place) = (subject.place(entry, Fact::Name), subject.place(before, Fact::Name));
+        let message = if entry.name == before.name {
+            format!("{index}.{first} and {index}.{second} are both named `{}`", shorten(&entry.name))
+        } else {
+            format!("{index}.{first} and {index}.{second} have one name in ASCII")
+        };
+        let diagnostic = Diagnostic::new(CODE, place, message);
+        findings.push(if place == before_place {
+            let help = subject.help(Help {
+                specification: "write `{n}` into the name; it stands for the sub-index",
+                eds: "give each entry of an object a name of its own",
+                setting: "give each entry of an object a name of its own",
+            });
+            diagnostic.label(format!("sub-index {first} and sub-index {second}")).help(help)
+        } else {
+            diagnostic
+                .label(format!("sub-index {second}"))
+                .with(before_place, format!("sub-index {first}"))
+                .help("give each entry of an object a name of its own")
+        });
+    }
+}
+
+/// An object that is named like an entry of another one.
+fn check_dotted(subject: &Subject<'_>, object: &Object, by_name: &ByName<'_>, findings: &mut Findings) {
+    for entry in &object.entries {
+        let full = format!("{}.{}", object.name, entry.name);
+        let Some(namesake) = by_name.get(&in_ascii(&full)) else { continue };
+        let (index, sub) = (object.index, entry.sub);
+        let message =
+            format!("`{}` is the name of {} and means {index}.{sub}", shorten(&full), namesake.index);
+        findings.push(
+            Diagnostic::new(CODE, subject.object_place(namesake), message)
+                .label(namesake.index.to_string())
+                .with(entry.span, format!("{index}.{sub}"))
+                .help("give one of them a name without this dot"),
+        );
+    }
+}

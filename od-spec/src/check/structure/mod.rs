@@ -1,0 +1,14 @@
+//! Objects and their entries: kinds, counts, elements, indices, links.
+
+use super::rule::Rule;
+use crate::rules::rules;
+
+rules! { Rule:
+    counts_agree,
+    structures_have_entries,
+    arrays_have_one_type,
+    indices_in_object_areas,
+    links_lead_somewhere,
+    counts_are_constant,
+    elements_are_alike,
+}

@@ -1,0 +1,5 @@
+//! Characters of texts: how bytes stand for them, what is ASCII of them, and which nobody sees.
+
+pub mod ascii;
+pub mod encoding;
+pub mod visible;
