@@ -10,32 +10,59 @@ use crate::hostile;
 use crate::parts::Amount;
 use crate::runner::Runner;
 
-/// Documents: name of their directory, specification, language, and whether they are in the sample.
-const DOCUMENTS: [(&str, &str, &str, bool); 7] = [
-    ("fullmo-drive", "od-spec/devices/fullmo-drive.od.yaml", "en", false),
-    ("pitch-control-system", "od-spec/devices/pitch-control-system.od.yaml", "en", false),
-    ("fullmo-drive-de", "od-spec/devices/fullmo-drive.od.yaml", "de", false),
-    ("pitch-control-system-de", "od-spec/devices/pitch-control-system.od.yaml", "de", false),
-    ("everything", "tests/readers/everything.od.yaml", "en", true),
-    ("two", "tests/docs/two.od.yaml", "en", false),
-    ("two-de", "tests/docs/two.od.yaml", "de", true),
+/// What is done with documents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Reading {
+    /// The search is asked, and links are followed.
+    Asked,
+    /// Every fact is compared with the dump as well, also on paper and in AsciiDoc.
+    Compared,
+    /// Nothing.
+    Skipped,
+}
+
+/// Documents: name of their directory, specification, language, and what is done with them in the sample and in all.
+///
+/// The German texts of the pitch control system are many: they are searched, and its facts are compared in English.
+const DOCUMENTS: [(&str, &str, &str, Reading, Reading); 7] = [
+    ("fullmo-drive", "od-spec/devices/fullmo-drive.od.yaml", "en", Reading::Skipped, Reading::Compared),
+    (
+        "pitch-control-system",
+        "od-spec/devices/pitch-control-system.od.yaml",
+        "en",
+        Reading::Asked,
+        Reading::Compared,
+    ),
+    ("fullmo-drive-de", "od-spec/devices/fullmo-drive.od.yaml", "de", Reading::Skipped, Reading::Compared),
+    (
+        "pitch-control-system-de",
+        "od-spec/devices/pitch-control-system.od.yaml",
+        "de",
+        Reading::Skipped,
+        Reading::Asked,
+    ),
+    ("everything", "tests/readers/everything.od.yaml", "en", Reading::Compared, Reading::Compared),
+    ("two", "tests/docs/two.od.yaml", "en", Reading::Skipped, Reading::Compared),
+    ("two-de", "tests/docs/two.od.yaml", "de", Reading::Compared, Reading::Compared),
 ];
 
 /// The documents as their readers see them.
 pub(crate) fn read_documents(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     const DOCS: &str = "target/browser/docs";
     let mut directories = Vec::new();
-    for (stem, path, language, is_in_sample) in DOCUMENTS {
-        if amount == Amount::Sample && !is_in_sample {
+    for (stem, path, language, in_sample, in_all) in DOCUMENTS {
+        let reading = match amount {
+            Amount::Sample => in_sample,
+            Amount::All => in_all,
+        };
+        if reading == Reading::Skipped {
             continue;
         }
         let system = compile_clean(path)?;
         let mut options = docs::options(&system, &[], Some(language));
-        // The German texts of this one are many: they are searched, and its facts are compared in English.
-        let is_compared = stem != "pitch-control-system-de";
         let html = [docs::Templates::new(Some(docs::Format::Html), &[])?];
         let mut set = docs::artifacts(&system, "", stem, &options, &html)?;
-        if !is_compared {
+        if reading == Reading::Asked {
             write_all(&root().join(DOCS), &set)?;
             directories.push(format!("{DOCS}/{stem}"));
             continue;
