@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 
 use docs_gen::{Format, Options, Templates, context};
 use minijinja::value::{Serde, Value};
-use od_spec::model::System;
+use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 use od_spec::wording::{Language, Texts};
 use od_spec::{Loader, compile};
@@ -214,7 +214,7 @@ fn every_fixed_text_is_in_the_language_files() {
         let mut known: BTreeSet<&str> = words_of(&texts).chain(TERMS).collect();
         // `unknown` where the specification names none.
         known.extend(words_of(&system.vendor.name));
-        for (_, object, entry) in system.devices.iter().flat_map(|device| device.entries()) {
+        for (_, object, entry) in system.devices.iter().flat_map(Dictionary::entries) {
             let about = entry.about.iter().map(|(_, text)| text);
             known.extend(about.chain([&*object.name, &*entry.name]).flat_map(words_of));
         }
