@@ -5,7 +5,6 @@
 //! a directory of a user's own templates can replace or join them.
 
 mod diagrams;
-mod files;
 mod language;
 mod options;
 mod pages;
@@ -17,7 +16,6 @@ pub mod view;
 
 use od_spec::model::System;
 
-pub use files::{artifacts, dump_context, options};
 pub use options::Options;
 pub use printed::{Difference, PrintedTable, TableIndex};
 pub use templates::markdown::escape as escape_markdown;

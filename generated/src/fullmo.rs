@@ -6737,13 +6737,7 @@ static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
     ],
     aliases: &[],
     limits: &[],
-    values: &[
-        &[0, 1, 2, 3, 4, 5, 6, 7, 8],
-        &[0, 1],
-        &[0, 1, 2, 3, 4],
-        &[-1, 1, 3, 4, 6],
-        &[-19, -18, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 35],
-    ],
+    values: VALUES,
     constants: b"\
         \x03\x02\x0C\x0D\x08",
     factory: &FACTORY,
@@ -6752,6 +6746,15 @@ static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
     granularity: 8,
     dummies: glue::table::Dummies::NONE,
 });
+
+/// The values that each enum accepts.
+static VALUES: &[&[i64]] = &[
+    &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+    &[0, 1],
+    &[0, 1, 2, 3, 4],
+    &[-1, 1, 3, 4, 6],
+    &[-19, -18, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 35],
+];
 
 /// What entries have in common.
 static ATTRIBUTES: [glue::table::Attributes; 28] = [

@@ -8926,17 +8926,7 @@ static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
             high: 15,
         },
     ],
-    values: &[
-        &[0, 2],
-        &[0, 3, 255],
-        &[0, 1, 2, 3],
-        &[-1, 0, 1, 2, 3],
-        &[-113, 0, 1, 3, 6, 8, 9],
-        &[-1, 0],
-        &[35],
-        &[0, 7, 10, 13, 14, 15, 16],
-        &[0, 1, 2, 130, 143],
-    ],
+    values: VALUES,
     constants: b"\
         \x50\x4D\x43\x04\x02\x01\x03\x06\x0F\x0A",
     factory: &FACTORY,
@@ -8958,6 +8948,19 @@ static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
     granularity: 8,
     dummies: glue::table::Dummies::NONE,
 });
+
+/// The values that each enum accepts.
+static VALUES: &[&[i64]] = &[
+    &[0, 2],
+    &[0, 3, 255],
+    &[0, 1, 2, 3],
+    &[-1, 0, 1, 2, 3],
+    &[-113, 0, 1, 3, 6, 8, 9],
+    &[-1, 0],
+    &[35],
+    &[0, 7, 10, 13, 14, 15, 16],
+    &[0, 1, 2, 130, 143],
+];
 
 /// What entries have in common.
 static ATTRIBUTES: [glue::table::Attributes; 45] = [

@@ -8620,7 +8620,7 @@ static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
             high: 65535,
         },
     ],
-    values: &[&[161], &[0]],
+    values: VALUES,
     constants: b"\
         \x50\x4D\x4D\x04\x02\x01\x08\x06\x03\x09\x07",
     factory: &FACTORY,
@@ -8648,6 +8648,9 @@ static TABLE: glue::Table<'static> = glue::Table::generated(glue::table::Parts {
     granularity: 8,
     dummies: glue::table::Dummies::NONE,
 });
+
+/// The values that each enum accepts.
+static VALUES: &[&[i64]] = &[&[161], &[0]];
 
 /// What entries have in common.
 static ATTRIBUTES: [glue::table::Attributes; 25] = [

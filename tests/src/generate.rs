@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use docs_gen::{self as docs, Templates};
 use od_c as c;
 use od_diff::{Question, Scope, compare, human};
+use od_documents::{self as docs, Templates};
 use od_formats::{Selection, artifacts, dbc};
 use od_gen::Artifact;
 use od_gen::files::{left_over, remove};

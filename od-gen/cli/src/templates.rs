@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use docs_gen::{TemplateError, Templates};
+use od_documents::{TemplateError, Templates};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::SourceMap;
 
@@ -21,12 +21,12 @@ pub(crate) enum DocsFormat {
     Print,
 }
 
-impl From<DocsFormat> for docs_gen::Format {
+impl From<DocsFormat> for od_documents::Format {
     fn from(format: DocsFormat) -> Self {
         match format {
-            DocsFormat::Md => docs_gen::Format::Markdown,
-            DocsFormat::Html => docs_gen::Format::Html,
-            DocsFormat::Print => docs_gen::Format::Print,
+            DocsFormat::Md => od_documents::Format::Markdown,
+            DocsFormat::Html => od_documents::Format::Html,
+            DocsFormat::Print => od_documents::Format::Print,
         }
     }
 }
@@ -84,7 +84,7 @@ pub(crate) fn templates(formats: &[DocsFormat], directory: Option<&Path>) -> Res
         .iter()
         .map(|format| {
             // Of a user's files for several formats, those for this one.
-            let format = docs_gen::Format::from(*format);
+            let format = od_documents::Format::from(*format);
             let known: Vec<&str> = format.files().iter().filter_map(|(name, _)| extension(name)).collect();
             let several = formats.len() > 1;
             let fits =

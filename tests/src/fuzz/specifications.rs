@@ -2,7 +2,7 @@
 
 use std::io::{Error, ErrorKind};
 
-use docs_gen::{self as docs, Format, Templates};
+use od_documents::{self as docs, Format, Templates};
 use od_formats::{eds, json};
 use od_gen::rust;
 use od_spec::diag::{Diagnostics, Severity};

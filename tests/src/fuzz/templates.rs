@@ -1,6 +1,6 @@
 //! What is demanded of every set of templates, however wrong.
 
-use docs_gen::{self as docs, Format, Options, TemplateError, Templates};
+use od_documents::{self as docs, Format, Options, TemplateError, Templates};
 use od_spec::model::System;
 
 use super::bounds::caught;

@@ -1,7 +1,7 @@
 //! Defaults of bit fields are told by the names of their bits.
 
 use super::links::{assert_has, page};
-use docs_gen::Format;
+use od_documents::Format;
 
 #[test]
 fn a_default_of_bits_is_told_by_their_names() {

@@ -1,6 +1,6 @@
 //! The contents of a device's page: its objects by what they are for.
 
-use docs_gen as docs;
+use od_documents as docs;
 
 use super::{EVERYTHING, FULLMO, PITCH, compile_clean};
 

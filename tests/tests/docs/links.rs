@@ -1,6 +1,6 @@
 //! Indices in the texts of a specification are links to what they name.
 
-use docs_gen::{self as docs, Format, Templates};
+use od_documents::{self as docs, Format, Templates};
 
 use super::compile_clean;
 

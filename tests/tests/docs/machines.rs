@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use docs_gen as docs;
+use od_documents as docs;
 use serde_json::Value;
 
 use super::{FULLMO, PITCH, compile_clean};

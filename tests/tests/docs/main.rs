@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use docs_gen::{self as docs, Format, Templates};
+use od_documents::{self as docs, Format, Templates};
 use od_spec::model::System;
 use od_tests::compile_clean;
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use docs_gen::{self as docs, Format, Options, Templates};
+use od_documents::{self as docs, Format, Options, Templates};
 
 use super::{EVERYTHING, FULLMO, PITCH, TWO, compile_clean};
 

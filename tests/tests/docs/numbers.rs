@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use docs_gen::{self as docs, Format, Templates};
+use od_documents::{self as docs, Format, Templates};
 use serde_json::Value;
 
 use super::links::{assert_has, page};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use docs_gen::{self as docs, Format, Templates};
+use od_documents::{self as docs, Format, Templates};
 use od_gen::rust::{self, Provenance};
 use od_spec::diag::Diagnostics;
 use od_spec::model::{EntryId, Index, ProseKind, SubIndex};

@@ -1,6 +1,6 @@
 //! Pictures of the HTML pages, read back.
 
-use docs_gen::{self as docs, Format, Templates};
+use od_documents::{self as docs, Format, Templates};
 
 use super::compile_clean;
 

@@ -3,7 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use docs_gen::{self as docs, Format, Templates};
+use od_documents::{self as docs, Format, Templates};
 use od_formats::{Selection, artifacts};
 use od_gen::Artifact;
 use od_gen::rust::{self, Provenance};

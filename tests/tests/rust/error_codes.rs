@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use docs_gen::{self as docs, Format, Templates};
 use firmware_glue::emcy::Emergency;
 use firmware_glue::error_register::ErrorRegister;
+use od_documents::{self as docs, Format, Templates};
 use od_generated::{fullmo, pmc, pmm};
 use od_spec::model::{Devices, ErrorCode, ErrorKind, System};
 use od_tests::compile_clean;

@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use docs_gen::{self as docs, Format, Templates};
 use firmware_glue::{AbortCode, Constrained as _, Dictionary as _, OutOfRange, Quantity as _, Special};
+use od_documents::{self as docs, Format, Templates};
 use od_spec::diag::Diagnostics;
 use od_spec::model::{EntryId, Index, SubIndex, System, Value};
 use od_spec::source::{SourceMap, Spanned};

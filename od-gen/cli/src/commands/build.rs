@@ -128,8 +128,8 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         set.extend(artifacts(system, stem, &selection));
         set.append(code);
         if !templates.is_empty() {
-            let options = docs_gen::options(system, &args.device, None);
-            match docs_gen::artifacts(system, "docs/", stem, &options, &templates) {
+            let options = od_documents::options(system, &args.device, None);
+            match od_documents::artifacts(system, "docs/", stem, &options, &templates) {
                 Ok(artifacts) => set.extend(artifacts),
                 Err(error) => return Problem::Template(error, None).show(report),
             }

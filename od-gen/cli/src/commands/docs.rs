@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use docs_gen as docs;
+use od_documents as docs;
 use od_gen::Artifact;
 use od_gen::files::Existing;
 use od_spec::diag::{Diagnostic, codes};
@@ -139,7 +139,7 @@ fn compile_all(specs: &[PathBuf], report: &Report) -> Option<Vec<(String, System
 
 fn export(args: &DocsArgs, target: &Path, report: &Report) -> u8 {
     let formats = if args.format.is_empty() { vec![DocsFormat::Md] } else { args.format.clone() };
-    let files = formats.into_iter().flat_map(|format| docs_gen::Format::from(format).files());
+    let files = formats.into_iter().flat_map(|format| od_documents::Format::from(format).files());
     let set: Vec<Artifact> = files
         .map(|(name, text)| Artifact {
             path: (*name).to_owned(),

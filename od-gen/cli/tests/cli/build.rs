@@ -66,7 +66,7 @@ fn names_of_two_devices_do_not_meet_in_c() {
     let scratch = Scratch::new("c-names");
     let spec = LAMP
         .replace("devices:\n", "devices:\n  lamp-get: {name: Other, bit-rates: [125]}\n")
-        .replace("objects:\n", "objects:\n  0x2001: {name: get x, type: unsigned8, access: rw, on: [lamp]}\n  0x2002: {name: x, type: unsigned8, access: rw, on: [lamp-get]}\n");
+        .replace("objects:\n", "objects:\n  0x2001: {name: get x, type: unsigned8, access: rw, devices: [lamp]}\n  0x2002: {name: x, type: unsigned8, access: rw, devices: [lamp-get]}\n");
     scratch.file("lamp.od.yaml", spec);
     let output = odgen(&scratch.0, &["build", "--c", "plain", "lamp.od.yaml"]);
     assert_eq!(code(&output), 1, "{}", stderr(&output));

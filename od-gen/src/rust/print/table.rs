@@ -339,7 +339,7 @@ impl Plan<'_> {
                 sparse: &[#(#sparse),*],
                 aliases: &[#(#aliases),*],
                 limits: &[#(#limits),*],
-                values: &[#(#values),*],
+                values: VALUES,
                 constants: #constants,
                 factory: &FACTORY,
                 node_id_places: &NODE_ID_PLACES,
@@ -347,6 +347,9 @@ impl Plan<'_> {
                 granularity: #granularity,
                 dummies: #dummies,
             });
+
+            /// The values that each enum accepts.
+            static VALUES: &[&[i64]] = &[#(#values),*];
 
             /// What entries have in common.
             static ATTRIBUTES: [glue::table::Attributes; #attribute_count] = [#(#attributes),*];

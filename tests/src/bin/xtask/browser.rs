@@ -1,6 +1,6 @@
 //! The documents in a browser.
 
-use docs_gen as docs;
+use od_documents as docs;
 use od_formats::json;
 use od_gen::Artifact;
 use od_gen::files::write_all;

@@ -1,6 +1,6 @@
 //! Documents whose texts try to command the browser, each beside the same one with plain texts.
 
-use docs_gen::{self as docs, Format, Templates};
+use od_documents::{self as docs, Format, Templates};
 use od_formats::json;
 use od_gen::Artifact;
 use od_gen::files::{Existing, write_set};

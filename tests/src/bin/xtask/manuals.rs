@@ -1,6 +1,6 @@
 //! The manuals on paper.
 
-use docs_gen as docs;
+use od_documents as docs;
 use od_gen::Artifact;
 use od_gen::files::write_all;
 use od_tests::{Failure, compile_clean, root};

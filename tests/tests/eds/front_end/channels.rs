@@ -72,7 +72,7 @@ fn they_come_back_from_an_eds() {
 #[test]
 fn documents_show_them_in_a_table() {
     let system = compiled("plc.od.yaml", PLC).0.system.unwrap();
-    let context = docs_gen_context(&system);
+    let context = od_documents_context(&system);
     let table = &context["devices"][0]["dynamic_channels"];
     let cells = |row: usize| -> Vec<String> {
         let cells = table["grids"][0]["rows"][row]["cells"].as_array().unwrap();
@@ -82,9 +82,9 @@ fn documents_show_them_in_a_table() {
     assert_eq!(cells(1), ["A000h", "boolean", "rww", "0", "1"]);
 }
 
-fn docs_gen_context(system: &od_spec::model::System) -> serde_json::Value {
-    let options = docs_gen::options(system, &[], None);
-    serde_json::from_slice(&docs_gen::dump_context(system, &options)).unwrap()
+fn od_documents_context(system: &od_spec::model::System) -> serde_json::Value {
+    let options = od_documents::options(system, &[], None);
+    serde_json::from_slice(&od_documents::dump_context(system, &options)).unwrap()
 }
 
 /// A file as the world may write it, with what of it is kept.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use docs_gen as docs;
+use od_documents as docs;
 use od_formats::{Selection, artifacts};
 use od_gen::Artifact;
 use od_gen::rust::{self, Provenance};

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use docs_gen::{self as docs, Format, Templates};
+use od_documents::{self as docs, Format, Templates};
 use od_spec::model::{Dictionary, Entry, EntryId, Index, Role, SubIndex, System};
 use od_tests::{compile_clean, root};
 

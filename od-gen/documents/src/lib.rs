@@ -1,10 +1,12 @@
 //! Reference documentation as files, with the calls of accessors in Rust, and the index of tables for programs.
+//!
+//! `docs-gen` prints pages and knows no generator; here they meet the accessors of the generated Rust.
+
+pub use docs_gen::{Format, Options, TemplateError, Templates};
 
 use od_gen::{Artifact, rust};
 use od_spec::model::{Devices, System};
 use serde::Serialize;
-
-use crate::{Options, TemplateError, Templates};
 
 /// What documents of these devices show; no key means all devices.
 pub fn options(system: &System, devices: &[String], language: Option<&str>) -> Options {
@@ -29,7 +31,7 @@ pub fn artifacts(
     options: &Options,
     templates: &[Templates],
 ) -> Result<Vec<Artifact>, TemplateError> {
-    let context = crate::context(system, options);
+    let context = docs_gen::context(system, options);
     let mut list = Vec::new();
     for templates in templates {
         for page in templates.print(&context)? {
@@ -37,7 +39,7 @@ pub fn artifacts(
             list.push(Artifact { path, bytes: page.text.into_bytes(), purpose: String::new() });
         }
     }
-    let index = crate::table_index(system, options);
+    let index = docs_gen::table_index(system, options);
     if !index.tables.is_empty() {
         let path = format!("{root}{stem}/tables.json");
         let purpose = "what takes the place of each printed table".to_owned();
@@ -48,7 +50,7 @@ pub fn artifacts(
 
 /// What templates see, as JSON.
 pub fn dump_context(system: &System, options: &Options) -> Vec<u8> {
-    json(&crate::context(system, options))
+    json(&docs_gen::context(system, options))
 }
 
 fn json(value: &impl Serialize) -> Vec<u8> {
