@@ -17,7 +17,8 @@ use od_spec::model::{Dictionary, Entry, EntryId, Index, Object, System};
 ///
 /// ```
 /// use od_spec::source::SourceMap;
-/// use od_spec::{NoFiles, compile, parameter_schema};
+/// use od_reference::parameter_schema;
+/// use od_spec::{NoFiles, compile};
 ///
 /// let mut sources = SourceMap::new();
 /// let root = sources.add("lamp.od.yaml", "

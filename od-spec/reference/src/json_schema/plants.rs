@@ -22,7 +22,8 @@ pub fn plant_schema() -> String {
 ///
 /// ```
 /// use od_spec::source::SourceMap;
-/// use od_spec::{NoFiles, compile, plant_schema_of};
+/// use od_reference::plant_schema_of;
+/// use od_spec::{NoFiles, compile};
 ///
 /// let mut sources = SourceMap::new();
 /// let root = sources.add("lamp.od.yaml", "
