@@ -1,70 +1,75 @@
 //! One JSON object each.
 
-use std::fmt::Write as _;
-
-use od_spec::diag::{Diagnostic, Diagnostics, Edit};
+use od_spec::diag::readers::Reader;
+use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::source::{SourceMap, Span};
-use od_spec::visible::is_hidden;
+use od_spec::visible::visible_json;
+use serde::Serialize;
+
+/// A message, in the order in which it is written.
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+struct Finding<'a> {
+    code: &'a str,
+    severity: &'a str,
+    message: &'a str,
+    labels: Vec<Marked<'a>>,
+    help: Option<&'a str>,
+    notes: &'a [String],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    edits: Vec<Marked<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    minded_by: Vec<&'a str>,
+}
+
+/// A place with a text: words about it, or what it is to become.
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+struct Marked<'a> {
+    file: &'a str,
+    line: usize,
+    column: usize,
+    end_line: usize,
+    end_column: usize,
+    text: &'a str,
+}
 
 /// One object for each message, in a line of its own.
 pub fn json(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
-    diagnostics.iter().map(|diagnostic| object(diagnostic, sources) + "\n").collect()
+    diagnostics.iter().map(|diagnostic| printed(&finding(diagnostic, sources)) + "\n").collect()
 }
 
-/// A message as one object in one line.
-fn object(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
+fn finding<'a>(diagnostic: &'a Diagnostic, sources: &'a SourceMap) -> Finding<'a> {
     let labels = diagnostic.labels.iter().map(|label| marked(label.span, &label.text, sources));
-    let notes = diagnostic.notes.iter().map(|note| quote(note));
-    let edits = diagnostic.edits.iter().map(|Edit { span, text }| marked(*span, text, sources));
-    let edits = edits.collect::<Vec<_>>().join(",");
-    let readers =
-        diagnostic.minded_by.iter().map(|reader| quote(reader.name())).collect::<Vec<_>>().join(",");
-    format!(
-        "{{\"code\":{},\"severity\":{},\"message\":{},\"labels\":[{}],\"help\":{},\"notes\":[{}]{}{}}}",
-        quote(diagnostic.code.id),
-        quote(diagnostic.severity().word()),
-        quote(&diagnostic.message),
-        labels.collect::<Vec<_>>().join(","),
-        diagnostic.help.as_ref().map_or("null".to_owned(), |help| quote(help)),
-        notes.collect::<Vec<_>>().join(","),
-        if edits.is_empty() { String::new() } else { format!(",\"edits\":[{edits}]") },
-        if readers.is_empty() { String::new() } else { format!(",\"minded-by\":[{readers}]") }
-    )
+    let edits = diagnostic.edits.iter().map(|edit| marked(edit.span, &edit.text, sources));
+    Finding {
+        code: diagnostic.code.id,
+        severity: diagnostic.severity().word(),
+        message: &diagnostic.message,
+        labels: labels.collect(),
+        help: diagnostic.help.as_deref(),
+        notes: &diagnostic.notes,
+        edits: edits.collect(),
+        minded_by: diagnostic.minded_by.iter().map(Reader::name).collect(),
+    }
 }
 
-/// A place with a text: words about it, or what is to stand there.
-fn marked(span: Span, text: &str, sources: &SourceMap) -> String {
+fn marked<'a>(span: Span, text: &'a str, sources: &'a SourceMap) -> Marked<'a> {
     let file = sources.file(span.file);
     let (start, end) = (file.line_col(span.start), file.line_col(span.end));
-    format!(
-        "{{\"file\":{},\"line\":{},\"column\":{},\"end-line\":{},\"end-column\":{},\"text\":{}}}",
-        quote(file.name()),
-        start.line,
-        start.column,
-        end.line,
-        end.column,
-        quote(text)
-    )
+    Marked {
+        file: file.name(),
+        line: start.line,
+        column: start.column,
+        end_line: end.line,
+        end_column: end.column,
+        text,
+    }
 }
 
-/// A JSON string.
-pub(super) fn quote(text: &str) -> String {
-    let mut out = String::with_capacity(text.len() + 2);
-    out.push('"');
-    for c in text.chars() {
-        match c {
-            '"' => out.push_str("\\\""),
-            '\\' => out.push_str("\\\\"),
-            '\n' => out.push_str("\\n"),
-            '\r' => out.push_str("\\r"),
-            '\t' => out.push_str("\\t"),
-            // Also the control characters that JSON would allow: a terminal obeys them.
-            c if is_hidden(c) => {
-                let _ = write!(out, "\\u{:04x}", c as u32);
-            }
-            c => out.push(c),
-        }
-    }
-    out.push('"');
-    out
+/// A value as JSON, without the control characters that JSON allows and a terminal obeys.
+pub(super) fn printed(value: &(impl Serialize + ?Sized)) -> String {
+    // Plain values, into memory: this cannot fail.
+    let text = serde_json::to_string(value).unwrap_or_default();
+    visible_json(&text).into_owned()
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Label, Severity};
 use od_spec::source::{FileId, SourceMap, Span};
 
-use super::json::quote;
+use super::json::printed;
 
 /// What was found in one file, and in the libraries that it uses.
 #[derive(Debug, Clone, Copy)]
@@ -31,34 +31,34 @@ pub fn sarif(version: &str, explanation: fn(&Code) -> String, files: &[Findings<
         })
     });
     let driver = object(&[
-        ("name", quote("odgen")),
-        ("version", quote(version)),
-        ("semanticVersion", quote(version)),
+        ("name", printed("odgen")),
+        ("version", printed(version)),
+        ("semanticVersion", printed(version)),
         ("rules", list(rules)),
     ]);
     let run = object(&[
         ("tool", object(&[("driver", driver)])),
         // Columns count characters.
-        ("columnKind", quote("unicodeCodePoints")),
+        ("columnKind", printed("unicodeCodePoints")),
         ("results", list(results)),
     ]);
     let document = object(&[
-        ("$schema", quote("https://json.schemastore.org/sarif-2.1.0.json")),
-        ("version", quote("2.1.0")),
+        ("$schema", printed("https://json.schemastore.org/sarif-2.1.0.json")),
+        ("version", printed("2.1.0")),
         ("runs", list([run])),
     ]);
     document + "\n"
 }
 
 fn rule(code: &Code, whole: &str) -> String {
-    let text = |text: &str| object(&[("text", quote(text))]);
+    let text = |text: &str| object(&[("text", printed(text))]);
     object(&[
-        ("id", quote(code.id)),
-        ("name", quote(&name(code.title))),
+        ("id", printed(code.id)),
+        ("name", printed(&name(code.title))),
         ("shortDescription", text(code.title)),
         ("fullDescription", text(code.explanation)),
-        ("help", object(&[("text", quote(whole)), ("markdown", quote(whole))])),
-        ("defaultConfiguration", object(&[("level", quote(level(code.severity)))])),
+        ("help", object(&[("text", printed(whole)), ("markdown", printed(whole))])),
+        ("defaultConfiguration", object(&[("level", printed(level(code.severity)))])),
     ])
 }
 
@@ -95,17 +95,17 @@ fn result(diagnostic: &Diagnostic, rule: usize, file: &Findings<'_>) -> String {
     };
     let related = (1..).zip(related).map(|(number, label)| location(label, Some(number), file.sources));
     let mut members = vec![
-        ("ruleId", quote(diagnostic.code.id)),
+        ("ruleId", printed(diagnostic.code.id)),
         ("ruleIndex", rule.to_string()),
-        ("level", quote(level(diagnostic.severity()))),
-        ("message", object(&[("text", quote(&lines.join("\n")))])),
+        ("level", printed(level(diagnostic.severity()))),
+        ("message", object(&[("text", printed(&lines.join("\n")))])),
         ("locations", list([first])),
     ];
     let related: Vec<String> = related.collect();
     if !related.is_empty() {
         members.push(("relatedLocations", list(related)));
     }
-    let readers: Vec<String> = diagnostic.minded_by.iter().map(|reader| quote(reader.name())).collect();
+    let readers: Vec<String> = diagnostic.minded_by.iter().map(|reader| printed(reader.name())).collect();
     if !readers.is_empty() {
         members.push(("properties", object(&[("mindedBy", list(readers))])));
     }
@@ -122,7 +122,7 @@ fn location(label: &Label, number: Option<usize>, sources: &SourceMap) -> String
     members.extend(number.map(|number| ("id", number.to_string())));
     members.push(("physicalLocation", place));
     if !label.text.is_empty() {
-        members.push(("message", object(&[("text", quote(&label.text))])));
+        members.push(("message", object(&[("text", printed(&label.text))])));
     }
     object(&members)
 }
@@ -132,7 +132,7 @@ fn physical(name: &str, region: String) -> String {
 }
 
 fn artifact(name: &str) -> String {
-    object(&[("uri", quote(&address(name)))])
+    object(&[("uri", printed(&address(name)))])
 }
 
 fn region(span: Span, sources: &SourceMap) -> String {
@@ -151,7 +151,7 @@ fn region(span: Span, sources: &SourceMap) -> String {
 fn fix(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let mut files: BTreeMap<FileId, Vec<String>> = BTreeMap::new();
     for edit in &diagnostic.edits {
-        let inserted = object(&[("text", quote(&edit.text))]);
+        let inserted = object(&[("text", printed(&edit.text))]);
         let replacement =
             object(&[("deletedRegion", region(edit.span, sources)), ("insertedContent", inserted)]);
         files.entry(edit.span.file).or_default().push(replacement);
@@ -161,7 +161,7 @@ fn fix(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
         object(&[("artifactLocation", artifact), ("replacements", list(replacements))])
     });
     let text = diagnostic.help.as_deref().unwrap_or(&diagnostic.message);
-    object(&[("description", object(&[("text", quote(text))])), ("artifactChanges", list(changes))])
+    object(&[("description", object(&[("text", printed(text))])), ("artifactChanges", list(changes))])
 }
 
 /// The address of a file: relative as its name is, or `file:///…` where the name is absolute.
@@ -188,7 +188,7 @@ fn address(name: &str) -> String {
 
 /// A JSON object of members whose values are JSON.
 fn object(members: &[(&str, String)]) -> String {
-    let members = members.iter().map(|(key, value)| format!("{}:{value}", quote(key)));
+    let members = members.iter().map(|(key, value)| format!("{}:{value}", printed(key)));
     format!("{{{}}}", members.collect::<Vec<_>>().join(","))
 }
 
