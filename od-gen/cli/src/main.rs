@@ -62,7 +62,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Make the files of a specification: EDS of each device and the JSON dump; all of them or, on an error, none
+    /// Make the files of a specification: EDS of each device and the JSON dump; an error writes none of them
     Build(build::BuildArgs),
     /// Check specifications, EDS, DCF, XDD and XDC files without writing anything
     Check(check::CheckArgs),

@@ -10,6 +10,7 @@ mod mutants;
 mod nasty;
 mod pdos_in_full;
 mod physical;
+mod architecture;
 mod readme;
 mod runs;
 mod state_machines;

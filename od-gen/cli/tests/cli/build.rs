@@ -1,4 +1,4 @@
-//! `odgen build`: which files it writes, and that it writes all or none.
+//! `odgen build`: which files it writes, and that an error writes none.
 
 use std::fs;
 

@@ -14,7 +14,7 @@ pub(crate) struct PlantArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum PlantCommand {
-    /// Make the files of all nodes: DCF, concise DCF, the list of nodes of each bus, and what differs where; all of them or none
+    /// Make the files of all nodes: DCF, concise DCF, the list of nodes of each bus, and what differs where; an error writes none of them
     Build(PlantBuildArgs),
     /// Check a plant without writing anything
     Check(PlantCheckArgs),
