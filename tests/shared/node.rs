@@ -148,7 +148,7 @@ pub(crate) fn node() -> Owned {
     factory.extend(*b"virtual\0\0\0\0\0"); // 2000h at 22
     let (mut blocks, mut seeds, mut order) = (vec![Block::FREE; 7], vec![0; 3], vec![0; 6]);
     let indices = [0x1400, 0x1600, 0x2000, 0x2001, 0x507A, 0x6040, 0x607A];
-    Directory::arrange(&indices, &mut blocks, &mut seeds, &mut order).unwrap();
+    Directory::arrange(&indices, &mut blocks, &mut seeds, &mut order).expect("seven indices have room");
     Owned {
         blocks,
         seeds,

@@ -3,11 +3,11 @@
 use firmware_glue::{AbortCode, Constrained, Dictionary, EntryId, pdo};
 
 #[deny(warnings)]
-mod nasty {
+mod dictionary {
     od_macros::object_dictionary!("shared/nasty.od.yaml");
 }
 
-use nasty::{Entry, Nasty, machines, types};
+use dictionary::{Entry, Nasty, machines, types};
 
 #[test]
 fn odd_widths_are_computed_with_a_sign() {
@@ -18,7 +18,7 @@ fn odd_widths_are_computed_with_a_sign() {
     assert_eq!(od.write_consistent(0x2000, 0, &[106, 0, 0], &mut ()), Err(AbortCode::INCOMPATIBLE));
     assert_eq!(od.write_consistent(0x2000, 0, &[105, 0, 0], &mut ()), Ok(Entry::A));
     assert_eq!(od.narrow().0, 0xFF_FFFF);
-    assert_eq!(od.set_narrow(nasty::units::U(7)), Ok(()));
+    assert_eq!(od.set_narrow(dictionary::units::U(7)), Ok(()));
     assert_eq!(od.wide().0, 7);
     assert_eq!(od.odd(), types::OddEnum::ON);
     assert_eq!(od.outcome(), types::Result::ERR);
@@ -48,16 +48,16 @@ fn what_is_written_by_name_or_counted_from_elsewhere_is_code() {
     );
     assert_eq!(od.above().to_string(), "1 × 1/3 + -1/7 w");
     assert_eq!(od.above_view().to_string(), "0 × 1/1 + -1/7 w");
-    od.set_above(nasty::units::W(0xFF_FFFF_FFFF)).unwrap();
+    od.set_above(dictionary::units::W(0xFF_FFFF_FFFF)).unwrap();
     assert_eq!(od.above_view().0, u32::MAX);
     // -1/7 is below -0.1, and 1/3 - 1/7 above it.
     for (huge, word, broken) in [(1, -1, None), (0, -1, Some("super")), (1, -2, Some("super"))] {
-        od.set_huge(nasty::units::W(huge));
+        od.set_huge(dictionary::units::W(huge));
         od.set_word(word);
         assert_eq!(od.broken_constraint().map(|constraint| constraint.name), broken, "{huge} {word}");
     }
     od.set_word(-1);
-    od.set_huge(nasty::units::W(1));
+    od.set_huge(dictionary::units::W(1));
     od.set_last_bit(types::SignedBits(0));
     assert_eq!(od.broken_constraint().map(|constraint| constraint.name), None, "100 is below 120");
     od.write(0x2012, 2, &[121], &mut ()).unwrap();
@@ -97,8 +97,8 @@ fn bits_in_pdos_are_packed_without_gaps() {
     assert_eq!(od.x().0, 0b1000_0010);
     let sent = pdo::pack(&mut od, 1, &mut ()).unwrap();
     assert_eq!(*sent, [0b0000_0101, 0b1]);
-    assert_eq!(nasty::pdos::Tpdo1::of(&od).pack(), *sent);
-    assert_eq!(nasty::pdos::Tpdo1::unpack([0b0000_0101, 0b1]), nasty::pdos::Tpdo1::of(&od));
+    assert_eq!(dictionary::pdos::Tpdo1::of(&od).pack(), *sent);
+    assert_eq!(dictionary::pdos::Tpdo1::unpack([0b0000_0101, 0b1]), dictionary::pdos::Tpdo1::of(&od));
 }
 
 #[test]
@@ -113,11 +113,11 @@ fn words_with_a_sign_have_states_and_commands() {
 fn rows_beyond_the_table_are_nothing() {
     assert_eq!(Nasty::new(1).table().id(u16::MAX), EntryId { index: 0, sub: 0 });
     assert_eq!(Nasty::new(1).entry(u16::MAX), None);
-    assert_eq!(nasty::limits::LIMITED_BITS, types::SignedBits(0xFFF6)..=types::SignedBits(10));
+    assert_eq!(dictionary::limits::LIMITED_BITS, types::SignedBits(0xFFF6)..=types::SignedBits(10));
     let mut od = Nasty::new(1);
     assert_eq!(od.set_gaps(2, 7), Some(()));
     assert_eq!((od.gaps(1), od.gaps(2), od.gaps(4)), (Some(0), Some(7), None));
-    od.set_type(nasty::units::T(3));
+    od.set_type(dictionary::units::T(3));
     assert_eq!(od.type_().to_string(), "3 T");
 }
 

@@ -16,7 +16,8 @@ pub(crate) enum Task {
     /// Tell what of that is not current.
     CheckGenerated,
     /// Take a directory of foreign EDS and DCF files through everything.
-    Corpus(String),
+    /// A directory, and of how many files one is taken.
+    Corpus(String, usize),
     /// Try mutants of files, with the arguments of the program `fuzz`.
     Fuzz(Vec<String>),
     /// Measure beside other tools, with the arguments of tests/bench/run.py.
@@ -106,12 +107,13 @@ Rewrites everything that is generated and checked in. With --check it writes not
 ";
 
 const CORPUS: &str = "\
-cargo xtask corpus DIR
+cargo xtask corpus DIR [--every N]
 
 Takes every EDS, DCF, XDD and XDC below a directory through everything, and prints a line for each problem and a table of the rest:
 bytes to text and back, reading it as it is and as the standard wants it, importing it, the EDS of the import, the import of
 that, and putting it right. Facts that do not come back are problems, but for those with a reason in
 tests/src/foreign/exceptions.rs. Of an XDD or XDC it leaves out what is about lines: bytes, putting right, comparing.
+With --every it takes only each Nth file, in the order of their names.
 
 Exit codes: 0 every file is without a problem, 1 one has problems, 2 wrong command line.
 ";
@@ -169,7 +171,11 @@ pub(crate) fn parse(arguments: &[&str]) -> Result<Task, String> {
         ["test", options @ ..] => test(options).map(Task::Test),
         ["generate"] => Ok(Task::Generate),
         ["generate", "--check"] => Ok(Task::CheckGenerated),
-        ["corpus", directory] => Ok(Task::Corpus((*directory).to_owned())),
+        ["corpus", directory] => Ok(Task::Corpus((*directory).to_owned(), 1)),
+        ["corpus", directory, "--every", count] => match count.parse() {
+            Ok(count) if count > 0 => Ok(Task::Corpus((*directory).to_owned(), count)),
+            _ => Err(format!("`--every` wants a number from 1, not `{count}`")),
+        },
         ["corpus"] => Err("`corpus` wants a directory".to_owned()),
         [task, rest @ ..] => {
             help(task)?;
@@ -250,7 +256,8 @@ mod tests {
         assert_eq!(parse(&["check"]), Ok(Task::Check));
         assert_eq!(parse(&["generate"]), Ok(Task::Generate));
         assert_eq!(parse(&["generate", "--check"]), Ok(Task::CheckGenerated));
-        assert_eq!(parse(&["corpus", "eds"]), Ok(Task::Corpus("eds".to_owned())));
+        assert_eq!(parse(&["corpus", "eds"]), Ok(Task::Corpus("eds".to_owned(), 1)));
+        assert_eq!(parse(&["corpus", "eds", "--every", "4"]), Ok(Task::Corpus("eds".to_owned(), 4)));
         assert_eq!(
             parse(&["fuzz", "--seed", "7"]),
             Ok(Task::Fuzz(vec!["--seed".to_owned(), "7".to_owned()]))
@@ -281,6 +288,7 @@ mod tests {
         assert_eq!(wrong(&["tset", "--all"]), "there is no task `tset`");
         assert_eq!(wrong(&["help", "tset"]), "there is no task `tset`");
         assert_eq!(wrong(&["corpus"]), "`corpus` wants a directory");
+        assert_eq!(wrong(&["corpus", "a", "--every", "0"]), "`--every` wants a number from 1, not `0`");
         assert_eq!(wrong(&["corpus", "a", "b"]), "`corpus` does not take `a b`");
         assert_eq!(wrong(&["test", "--al"]), "`test` does not take `--al`");
         assert_eq!(wrong(&["generate", "--chekc"]), "`generate` does not take `--chekc`");

@@ -45,7 +45,7 @@ fn main() -> ExitCode {
         }
         Ok(Task::Generate) => write(),
         Ok(Task::CheckGenerated) => check(),
-        Ok(Task::Corpus(directory)) => corpus::corpus(&directory),
+        Ok(Task::Corpus(directory, every)) => corpus::corpus(&directory, every),
         Ok(Task::Fuzz(rest)) => fuzz(&rest),
         Ok(Task::Bench(rest)) => bench("tests/bench/run.py", &rest),
         Ok(Task::BenchReading(rest)) => bench("tests/bench/eds/reading.py", &rest),
