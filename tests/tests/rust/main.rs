@@ -1,6 +1,7 @@
 //! Generated Rust: it compiles without a warning, and does what the specification says.
 
 mod access;
+mod architecture;
 mod dictionary;
 mod doors;
 mod download;
@@ -10,7 +11,6 @@ mod mutants;
 mod nasty;
 mod pdos_in_full;
 mod physical;
-mod architecture;
 mod readme;
 mod runs;
 mod state_machines;
