@@ -208,7 +208,7 @@ mod tests {
     fn a_program_that_does_not_end_is_stopped() {
         let start = |text: &str| Command::new("sh").args(["-c", text]).spawn().unwrap();
         let begun = Instant::now();
-        assert!(!ends_well(start("sleep 60"), Duration::from_millis(100)));
+        assert!(!ends_well(start("exec sleep 60"), Duration::from_millis(100)));
         assert!(begun.elapsed() < Duration::from_secs(30));
         assert!(ends_well(start("exit 0"), Duration::from_secs(30)));
         assert!(!ends_well(start("exit 1"), Duration::from_secs(30)));
