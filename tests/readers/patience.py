@@ -20,6 +20,9 @@ T = TypeVar("T")
 PATIENCE = 60.0
 """Seconds after which what is waited for is missing."""
 
+SCANS = (200, 2000, 20_000)
+"""Milliseconds that one scan after the other waits, until one finds something."""
+
 SdoClient.RESPONSE_TIMEOUT = PATIENCE
 LssMaster.RESPONSE_TIMEOUT = PATIENCE
 

@@ -21,7 +21,7 @@ from pathlib import Path
 import can
 import canopen
 
-from patience import PATIENCE, Heard
+from patience import PATIENCE, Heard, settle
 from sdo_client import NODE, NOT_STORED, Check, begin, check_dictionary, code_of
 
 SAVE = b"save"
@@ -166,6 +166,8 @@ def check_reset(check: Check, node: canopen.RemoteNode, device: dict) -> None:
 
 def check_second(check: Check, served: Served, node: canopen.RemoteNode) -> None:
     """Another client sees what this one sends, and what the node answers; it guards the node."""
+    # The end of a block has no answer, and what another client sends could overtake it.
+    settle(node)
     with served.bus() as other:
         # An answer to the second client says that it is there; the first one gets it, too.
         other.send(can.Message(arbitration_id=0x600 + NODE, data=upload_of(0x1000), is_extended_id=False))

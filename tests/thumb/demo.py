@@ -197,24 +197,26 @@ def check(program: Path, others: dict[str, Path], odgen: Path | None) -> int:
 
 def check_odgen(odgen: Path, address: str) -> tuple[int, list[str]]:
     """Finds the node, backs it up, changes it, compares, restores; how many checks, and what was wrong."""
-    from patience import PATIENCE
+    from patience import PATIENCE, SCANS
 
     failures, done = [], 0
-    patient = ("--timeout", str(int(1000 * PATIENCE)))
 
-    def expect(code: int, pattern: str, *command: str) -> None:
+    def expect(code: int, pattern: str, *command: str, timeouts: tuple[int, ...] = (int(1000 * PATIENCE),)) -> None:
         nonlocal done
         done += 1
-        whole = [str(odgen), "node", *command, "--slcan", address]
-        said = subprocess.run(whole, capture_output=True, text=True, check=False, timeout=10 * PATIENCE)
-        text = said.stdout + said.stderr
+        for milliseconds in timeouts:
+            whole = [str(odgen), "node", *command, "--slcan", address, "--timeout", str(milliseconds)]
+            said = subprocess.run(whole, capture_output=True, text=True, check=False, timeout=10 * PATIENCE)
+            text = said.stdout + said.stderr
+            if re.search(pattern, text):
+                break
         if said.returncode != code or not re.search(pattern, text):
             failures.append(f"{' '.join(whole)}: ended with {said.returncode} and {text[-300:]!r}, expected {code} and {pattern!r}")
 
-    spec, of_node = str(SPECIFICATION), ("--device", DEVICE, "--node", "5", *patient)
+    spec, of_node = str(SPECIFICATION), ("--device", DEVICE, "--node", "5")
     with tempfile.TemporaryDirectory() as folder:
         file = str(Path(folder, "pmc-5.yaml"))
-        expect(0, rf"can be {DEVICE} ", "scan", spec, "--timeout", "200")
+        expect(0, rf"can be {DEVICE} ", "scan", spec, timeouts=SCANS)
         expect(0, "", "backup", spec, "--out", file, *of_node)
         expect(0, "", "compare", spec, file, *of_node)
         expect(0, "", "write", spec, "EFC target position=88.00 °", *of_node)

@@ -122,7 +122,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 36] = [
+pub(crate) static PARTS: [Part; 37] = [
     rust("form", "form", Tier::Check, form::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
     rust("rust", "Rust tests", Tier::Gate, rust_tests::integration),
@@ -215,7 +215,9 @@ pub(crate) static PARTS: [Part; 36] = [
         area: Area::Firmware,
         turn: Turn::Beside,
         needs: &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
-        ..rust("plain-c", "dictionaries in plain C", Tier::Gate, plain_c::try_all)
+        ..rust("plain-c", "dictionaries in plain C", Tier::Gate, |runner| {
+            plain_c::try_all(runner, Amount::Sample)
+        })
     },
     rust(
         "long-rust",
@@ -274,6 +276,17 @@ pub(crate) static PARTS: [Part; 36] = [
         ),
         |runner| readers::structured_text(runner, Amount::All),
     ),
+    Part {
+        area: Area::Firmware,
+        turn: Turn::Beside,
+        needs: &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
+        ..rust(
+            "long-plain-c",
+            "dictionaries in plain C with all random requests",
+            Tier::Long("finds rare faults only; the gate asks the first quarter of the same requests"),
+            |runner| plain_c::try_all(runner, Amount::All),
+        )
+    },
     Part {
         uses: NODE,
         ..reader(
