@@ -68,7 +68,7 @@ pub(crate) enum Turn {
     First,
     /// At the same time, one after the other, because these parts share what they install.
     Beside,
-    /// When all others have ended, one after the other: a client, a browser or an emulator is given a time to answer.
+    /// When all others have ended, one after the other: a browser is given a time to answer.
     Alone,
 }
 
@@ -122,7 +122,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 34] = [
+pub(crate) static PARTS: [Part; 37] = [
     rust("form", "form", Tier::Check, form::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
     rust("rust", "Rust tests", Tier::Gate, rust_tests::integration),
@@ -138,7 +138,7 @@ pub(crate) static PARTS: [Part; 34] = [
     Part {
         uses: NODE,
         ..reader("selftest", "EDS readers notice mistakes", Tier::Gate, |runner| {
-            runner.python("tests/readers/selftest/selftest.py", &[])
+            readers::self_test(runner, Amount::Sample)
         })
     },
     Part {
@@ -156,7 +156,12 @@ pub(crate) static PARTS: [Part; 34] = [
         })
     },
     Part { uses: NODE, ..reader("drives", "EDS readers: drives of odgen new", Tier::Gate, readers::drives) },
-    Part { uses: NODE, ..reader("foretold", "EDS readers: what is foretold", Tier::Gate, readers::foretold) },
+    Part {
+        uses: NODE,
+        ..reader("foretold", "EDS readers: what is foretold", Tier::Gate, |runner| {
+            readers::foretold(runner, Amount::Sample)
+        })
+    },
     reader("eds2c", "EDS readers: firmware in C", Tier::Gate, readers::firmware_in_c),
     reader("concise", "EDS readers: concise DCF", Tier::Gate, readers::concise_dcf),
     reader("xdd", "EDS readers: XDD and XDC", Tier::Gate, readers::xdd_structure),
@@ -165,7 +170,6 @@ pub(crate) static PARTS: [Part; 34] = [
     reader("st", "Structured Text", Tier::Gate, |runner| readers::structured_text(runner, Amount::Sample)),
     reader("lsp", "language server", Tier::Gate, readers::language_server),
     Part {
-        turn: Turn::Alone,
         uses: NODE,
         ..reader("sdo", "SDO client", Tier::Gate, |runner| readers::sdo_client(runner, Amount::Sample))
     },
@@ -195,7 +199,7 @@ pub(crate) static PARTS: [Part; 34] = [
     },
     Part {
         area: Area::Firmware,
-        turn: Turn::Alone,
+        turn: Turn::Beside,
         needs: EMULATOR,
         ..rust("emulator", "firmware in an emulator", Tier::Gate, |runner| {
             runner.python("tests/thumb/run.py", &["test"])
@@ -203,7 +207,7 @@ pub(crate) static PARTS: [Part; 34] = [
     },
     Part {
         area: Area::Firmware,
-        turn: Turn::Alone,
+        turn: Turn::Beside,
         needs: EMULATOR,
         ..rust("demo", "demo firmware in an emulator", Tier::Gate, readers::demo_firmware)
     },
@@ -211,7 +215,9 @@ pub(crate) static PARTS: [Part; 34] = [
         area: Area::Firmware,
         turn: Turn::Beside,
         needs: &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
-        ..rust("plain-c", "dictionaries in plain C", Tier::Gate, plain_c::try_all)
+        ..rust("plain-c", "dictionaries in plain C", Tier::Gate, |runner| {
+            plain_c::try_all(runner, Amount::Sample)
+        })
     },
     rust(
         "long-rust",
@@ -239,16 +245,49 @@ pub(crate) static PARTS: [Part; 34] = [
         Tier::Long("finds rare faults only; the gate tries the first of the same mutants"),
         |runner| runner.fuzz(&["--seconds", "600", "--seed", "1"]),
     ),
+    Part {
+        uses: NODE,
+        ..reader(
+            "long-selftest",
+            "EDS readers notice all mistakes",
+            Tier::Long(
+                "changes its answer with the scripts of the readers only; the gate plants three of the mistakes",
+            ),
+            |runner| readers::self_test(runner, Amount::All),
+        )
+    },
+    Part {
+        uses: NODE,
+        ..reader(
+            "long-foretold",
+            "EDS readers: what is foretold of all faults",
+            Tier::Long(
+                "plants the same faults in more places; the gate takes each sixth of the files, of which all have to agree",
+            ),
+            |runner| readers::foretold(runner, Amount::All),
+        )
+    },
     reader(
         "long-st",
         "Structured Text of all devices",
         Tier::Long(
-            "the parser that others wrote takes minutes for it; the gate takes one device of each kind",
+            "the parser that others wrote takes minutes for it; the gate takes one device of each kind, and of its \
+             constants and of the planted faults each sixth",
         ),
         |runner| readers::structured_text(runner, Amount::All),
     ),
     Part {
-        turn: Turn::Alone,
+        area: Area::Firmware,
+        turn: Turn::Beside,
+        needs: &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
+        ..rust(
+            "long-plain-c",
+            "dictionaries in plain C with all random requests",
+            Tier::Long("finds rare faults only; the gate asks the first quarter of the same requests"),
+            |runner| plain_c::try_all(runner, Amount::All),
+        )
+    },
+    Part {
         uses: NODE,
         ..reader(
             "long-sdo",
