@@ -304,7 +304,9 @@ pub(crate) static PARTS: [Part; 37] = [
         ..rust(
             "long-browser",
             "all documents in a browser",
-            Tier::Long("looks at eight documents in the same way; the gate looks at two of them"),
+            Tier::Long(
+                "looks at eight documents, at everything in each width; the gate looks at three, at one of each kind",
+            ),
             |runner| browser::read_documents(runner, Amount::All),
         )
     },
