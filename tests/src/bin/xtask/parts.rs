@@ -66,10 +66,8 @@ pub(crate) enum Amount {
 pub(crate) enum Turn {
     /// From the start, one after the other: cargo, which works on all cores.
     First,
-    /// At the same time, one after the other, because these parts share what they install.
+    /// At the same time, one after the other; two at a time when those of cargo have ended.
     Beside,
-    /// When all others have ended, one after the other: a browser is given a time to answer.
-    Alone,
 }
 
 /// Whether a part can run.
@@ -128,6 +126,17 @@ pub(crate) static PARTS: [Part; 37] = [
     rust("rust", "Rust tests", Tier::Gate, rust_tests::integration),
     rust("examples", "examples in the documentation", Tier::Gate, rust_tests::examples),
     rust("packages", "packages are complete", Tier::Gate, package::complete),
+    // What takes longest begins first.
+    Part {
+        area: Area::Browser,
+        turn: Turn::Beside,
+        needs: BROWSER,
+        installer: Some("tests/browser/run.py"),
+        ..rust("browser", "documents in a browser", Tier::Gate, |runner| {
+            browser::read_documents(runner, Amount::Sample)
+        })
+    },
+    reader("st", "Structured Text", Tier::Gate, |runner| readers::structured_text(runner, Amount::Sample)),
     // The same mutants in every run, as the seed decides.
     Part {
         turn: Turn::Beside,
@@ -167,20 +176,10 @@ pub(crate) static PARTS: [Part; 37] = [
     reader("xdd", "EDS readers: XDD and XDC", Tier::Gate, readers::xdd_structure),
     reader("plant", "EDS readers: a plant", Tier::Gate, readers::plant),
     reader("dbc", "DBC readers", Tier::Gate, readers::dbc),
-    reader("st", "Structured Text", Tier::Gate, |runner| readers::structured_text(runner, Amount::Sample)),
     reader("lsp", "language server", Tier::Gate, readers::language_server),
     Part {
         uses: NODE,
         ..reader("sdo", "SDO client", Tier::Gate, |runner| readers::sdo_client(runner, Amount::Sample))
-    },
-    Part {
-        area: Area::Browser,
-        turn: Turn::Alone,
-        needs: BROWSER,
-        installer: Some("tests/browser/run.py"),
-        ..rust("browser", "documents in a browser", Tier::Gate, |runner| {
-            browser::read_documents(runner, Amount::Sample)
-        })
     },
     Part {
         area: Area::Browser,
@@ -298,7 +297,7 @@ pub(crate) static PARTS: [Part; 37] = [
     },
     Part {
         area: Area::Browser,
-        turn: Turn::Alone,
+        turn: Turn::Beside,
         needs: BROWSER,
         installer: Some("tests/browser/run.py"),
         ..rust(
