@@ -1,10 +1,11 @@
-//! The libraries that come with the compiler, as texts.
+//! The libraries that come with the compiler, as texts and as they were read.
 
 use std::collections::BTreeMap;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
+use crate::ast::Spec;
 use crate::diag::Diagnostics;
-use crate::source::SourceMap;
+use crate::source::{FileId, SourceMap};
 use crate::yaml::{self, Node};
 
 /// Libraries that come with the compiler: name and text.
@@ -22,6 +23,37 @@ pub fn features(name: &str, text: &str) -> Vec<(String, Node)> {
     let tree = yaml::parse(file, sources.file(file), &mut Diagnostics::new());
     let features = tree.as_ref().and_then(|tree| tree.get("features")).map(Node::entries).unwrap_or_default();
     features.iter().map(|(name, node)| (name.value.clone(), node.clone())).collect()
+}
+
+/// A library as a compilation has read it, with the languages of its texts.
+type Kept = (Vec<String>, Arc<Spec>);
+
+/// The last of each library, in the order of [`LIBRARIES`]: reading takes longer than all else that a small specification asks for.
+static KEPT: Mutex<[Option<Kept>; LIBRARIES.len()]> = Mutex::new([const { None }; LIBRARIES.len()]);
+
+fn place(name: &str) -> Option<usize> {
+    LIBRARIES.iter().position(|(library, _)| *library == name)
+}
+
+/// A library as it was read last, in whatever languages.
+pub(crate) fn kept(name: &str) -> Option<Arc<Spec>> {
+    let kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    kept[place(name)?].as_ref().map(|(_, library)| Arc::clone(library))
+}
+
+/// A library that was read in these languages from a file with the same number, so that its places are those of this file.
+pub(crate) fn kept_as(name: &str, file: FileId, languages: &[String]) -> Option<Arc<Spec>> {
+    let kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_same = |(of, library): &&Kept| library.file == file && of == languages;
+    kept[place(name)?].as_ref().filter(is_same).map(|(_, library)| Arc::clone(library))
+}
+
+/// Keeps a library that was read in these languages.
+pub(crate) fn keep(name: &str, languages: &[String], library: &Arc<Spec>) {
+    if let Some(place) = place(name) {
+        let kept = (languages.to_vec(), Arc::clone(library));
+        KEPT.lock().unwrap_or_else(PoisonError::into_inner)[place] = Some(kept);
+    }
 }
 
 /// The libraries by the names of their features; asked only about a feature that a specification does not find.
