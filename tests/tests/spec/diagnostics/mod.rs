@@ -24,6 +24,7 @@ mod wording_rules;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Code, Diagnostic, Diagnostics};
@@ -47,6 +48,18 @@ fn cases() -> Vec<(String, String)> {
     cases.sort();
     assert!(!cases.is_empty());
     cases
+}
+
+/// Every case with what is said about it.
+fn said_of_cases() -> &'static [(String, String, (SourceMap, FileId, Compiled))] {
+    static SAID: LazyLock<Vec<(String, String, (SourceMap, FileId, Compiled))>> = LazyLock::new(|| {
+        let said = cases().into_iter().map(|(name, text)| {
+            let said = run(&name, &text);
+            (name, text, said)
+        });
+        said.collect()
+    });
+    &SAID
 }
 
 fn read(path: &Path) -> String {
