@@ -21,6 +21,7 @@ mod virtual_nodes;
 
 use std::collections::BTreeSet;
 use std::process::ExitCode;
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use arguments::{Choice, Gaps, Task, TestOptions, parse};
@@ -131,25 +132,30 @@ fn find_tools(parts: &[&Part]) -> BTreeSet<Tool> {
     found
 }
 
-/// Runs the parts, as many at the same time as their turns allow.
+/// Runs the parts: those of cargo one after the other, and beside them, and then instead of them, the others.
 fn run_all(parts: &[&'static Part], found: &BTreeSet<Tool>) -> Vec<Row> {
     let of = |turn: Turn| parts.iter().copied().filter(move |part| part.turn == turn);
     prepare(parts);
+    let waiting = Mutex::new(of(Turn::Beside));
+    let run_waiting = |done: &mut dyn FnMut((Row, Output))| {
+        // The lock is given back before the part runs.
+        let next = || waiting.lock().ok()?.next();
+        while let Some(part) = next() {
+            done(run(part, found, Output::Kept(Vec::new())));
+        }
+    };
     let (done, to_tell) = std::sync::mpsc::channel();
-    let mut rows: Vec<Row> = std::thread::scope(|scope| {
-        scope.spawn(move || {
-            for part in of(Turn::Beside) {
-                let output = Output::Kept(Vec::new());
-                // Nobody listens only when the other thread has panicked.
-                let _ = done.send(run(part, found, output));
-            }
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            let done = done;
+            // Nobody listens only when the other thread has panicked.
+            run_waiting(&mut |row| drop(done.send(row)));
         });
         let mut rows: Vec<Row> = of(Turn::First).map(|part| tell(run(part, found, Output::Told))).collect();
+        run_waiting(&mut |row| rows.push(tell(row)));
         rows.extend(to_tell.iter().map(tell));
         rows
-    });
-    rows.extend(of(Turn::Alone).map(|part| tell(run(part, found, Output::Told))));
-    rows
+    })
 }
 
 /// Compiles what the parts run, and installs what they need from registries at the same time. The parts themselves report what is wrong.
