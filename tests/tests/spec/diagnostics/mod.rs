@@ -50,9 +50,11 @@ fn cases() -> Vec<(String, String)> {
     cases
 }
 
-/// Every case with what is said about it.
-fn said_of_cases() -> &'static [(String, String, (SourceMap, FileId, Compiled))] {
-    static SAID: LazyLock<Vec<(String, String, (SourceMap, FileId, Compiled))>> = LazyLock::new(|| {
+/// Name and text of a case, and what is said about it.
+type Said = (String, String, (SourceMap, FileId, Compiled));
+
+fn said_of_cases() -> &'static [Said] {
+    static SAID: LazyLock<Vec<Said>> = LazyLock::new(|| {
         let said = cases().into_iter().map(|(name, text)| {
             let said = run(&name, &text);
             (name, text, said)
