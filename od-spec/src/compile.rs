@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::Commissioning;
 use crate::ast::Spec;
 use crate::check;
 use crate::check::allowed::Allowed;
@@ -16,6 +15,7 @@ use crate::files::{self, Loader};
 use crate::keys;
 use crate::library::shipped::{LIBRARIES, keep, kept_as};
 use crate::model::System;
+use crate::node_of_file::NodeOfFile;
 use crate::parameters::{is_parameter_file, of_node};
 use crate::parts;
 use crate::plant::is_plant;
@@ -35,10 +35,8 @@ pub struct Compiled {
     /// The model. A specification, and an EDS that is held to the standard, has one exactly when no error is among the
     /// diagnostics; an EDS that is only read has one whatever is wrong with it.
     pub system: Option<System>,
-    /// Of a DCF: the node that it configures; of one that states no node-ID, as node 1 would be.
-    pub node: Option<Commissioning>,
-    /// The node-ID that a DCF states.
-    pub stated_node_id: Option<u8>,
+    /// Of a DCF: the node that it configures.
+    pub node: Option<NodeOfFile>,
     /// How much the text describes: objects as they are written, each of a run, and the entries of every device; also
     /// where an error keeps the model back. Memory and time grow with it.
     pub described: usize,
@@ -49,7 +47,7 @@ pub struct Compiled {
 impl Compiled {
     /// Nothing but messages.
     pub const fn refused(diagnostics: Diagnostics) -> Self {
-        Self { system: None, node: None, stated_node_id: None, described: 0, diagnostics }
+        Self { system: None, node: None, described: 0, diagnostics }
     }
 }
 
@@ -199,7 +197,6 @@ fn resolved(
         described: described(&spec, &system),
         system: (!refused).then_some(system),
         node: node.filter(|_| !refused),
-        stated_node_id: id.filter(|_| !refused),
         diagnostics,
     }
 }
@@ -216,7 +213,7 @@ pub(crate) fn compile_with(
     diagnostics.sort();
     let (system, described) = built.map_or((None, 0), |(system, described)| (Some(system), described));
     let system = system.filter(|_| !diagnostics.has_errors());
-    Compiled { system, node: None, stated_node_id: None, described, diagnostics }
+    Compiled { system, node: None, described, diagnostics }
 }
 
 fn described(spec: &Spec, system: &System) -> usize {

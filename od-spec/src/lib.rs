@@ -38,6 +38,7 @@ mod library;
 mod limits;
 pub mod model;
 pub mod names;
+mod node_of_file;
 mod notation;
 mod parameters;
 mod parts;
@@ -47,6 +48,7 @@ mod rules;
 pub mod source;
 mod standard;
 mod text;
+mod traffic;
 pub mod wording;
 pub mod xdd;
 pub mod yaml;
@@ -66,6 +68,7 @@ pub use fix::{Change, Fixed, fix};
 pub use layout::layout;
 pub use library::shipped::{LIBRARIES, features as features_of_text};
 pub use library::{Feature, Library, LibraryObject, library, library_in};
+pub use node_of_file::NodeOfFile;
 pub use notation::{expr, name_pattern, scalar};
 pub use parameters::{
     Assigned, Assignment, Layer, Origin, ParameterFile, SettingDecl, SettingNames, assign, assign_layers,

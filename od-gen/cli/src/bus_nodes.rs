@@ -6,6 +6,7 @@ use std::sync::Arc;
 use clap::Args;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{Dictionary, EntryId, Index, SubIndex, System, Value};
+use od_spec::plant::shared_cob_id;
 use od_spec::visible::visible;
 
 use crate::exit::ERRORS;
@@ -81,12 +82,17 @@ impl BusNodes {
         } else {
             specs::all(&args.specs, directory, report)?
         };
-        let (mut systems, mut configured) = (Vec::new(), Vec::new());
+        let (mut systems, mut files) = (Vec::new(), Vec::new());
         for path in &paths {
-            let (used, _) = report.compile_with_sources(path).ok_or(ERRORS)?;
-            configured.push(used.stated_node());
+            let (used, sources) = report.compile_with_sources(path).ok_or(ERRORS)?;
             systems.push(Arc::new(used.system));
+            files.push(used.node.map(|node| (node, sources)));
         }
+        let of_file = |system: usize| files.get(system).and_then(Option::as_ref);
+        let as_node = |system: usize, device: &Dictionary, id: u8| match of_file(system) {
+            Some((node, sources)) => report.moved(node, Some(id), sources).configured(device),
+            None => device.clone(),
+        };
         let mut found = Self { systems, nodes: Vec::new() };
         let mut named: Vec<(u8, Option<&str>)> = Vec::new();
         for text in &args.node {
@@ -98,19 +104,17 @@ impl BusNodes {
         }
         for (id, key) in named {
             let (system, device) = found.device(key, report)?;
-            // A DCF says what its own node is set to; another node of the device has the defaults.
-            let node = configured.get(system).and_then(Option::as_ref).filter(|node| node.node == id);
-            let device = node.map_or_else(|| device.clone(), |node| node.configured(device));
+            let device = as_node(system, device, id);
             found.push(BusNode { id, system, device }, report)?;
         }
         if args.node.is_empty() {
-            for (system, node) in configured.iter().enumerate() {
-                let Some(node) = node else { continue };
+            for (system, file) in files.iter().enumerate() {
+                let Some(id) = file.as_ref().and_then(|(node, _)| node.stated_id()) else { continue };
                 let Some(device) = found.systems.get(system).and_then(|system| system.devices.first()) else {
                     continue;
                 };
-                let device = node.configured(device);
-                found.push(BusNode { id: node.node, system, device }, report)?;
+                let device = as_node(system, device, id);
+                found.push(BusNode { id, system, device }, report)?;
             }
         }
         if found.nodes.is_empty() {
@@ -119,7 +123,20 @@ impl BusNodes {
                 "add `--node ID=KEY` for each node: its node-ID, 1 to 127, and the key of its device",
             )));
         }
+        found.send_apart(|node| of_file(node.system).is_some(), report)?;
         Ok(found)
+    }
+
+    /// Refuses two nodes that send with one COB-ID, as far as a DCF says what one of them is set to.
+    fn send_apart(&self, is_set: impl Fn(&BusNode) -> bool, report: &Report) -> Result<(), u8> {
+        for (at, second) in self.nodes.iter().enumerate() {
+            for first in self.nodes.iter().take(at).filter(|first| is_set(first) || is_set(second)) {
+                if let Some(shared) = shared_cob_id((first.id, &first.device), (second.id, &second.device)) {
+                    return Err(report.refuse(shared));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The nodes of a machine of a plant, as it sets them.

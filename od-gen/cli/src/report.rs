@@ -14,7 +14,7 @@ use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 use od_spec::visible::{printable, visible, visible_json};
 use od_spec::xdd::is_xdd;
-use od_spec::{Commissioning, Compiled};
+use od_spec::{Commissioning, Compiled, NodeOfFile};
 
 use crate::exit::{ERRORS, SUCCESS, USAGE};
 use crate::listing::{Most, for_people};
@@ -31,17 +31,31 @@ pub(crate) struct Report {
 pub(crate) struct Used {
     pub(crate) system: System,
     /// Of a DCF: the node that it configures.
-    pub(crate) node: Option<Commissioning>,
-    /// The node-ID that a DCF states.
-    pub(crate) stated_node_id: Option<u8>,
+    pub(crate) node: Option<NodeOfFile>,
     /// Of a parameter file: the device that it is for.
     pub(crate) device: Option<String>,
 }
 
 impl Used {
-    /// The node of a DCF that states which one it is.
-    pub(crate) fn stated_node(&self) -> Option<Commissioning> {
-        self.node.clone().filter(|_| self.stated_node_id.is_some())
+    /// The node-ID that counts: the given one, or else that of a DCF.
+    pub(crate) fn node_id(&self, given: Option<u8>) -> Option<u8> {
+        given.or_else(|| self.node.as_ref()?.stated_id())
+    }
+
+    /// Of a DCF at `path`: what documents of it are about, with the values of the node in place of the defaults.
+    pub(crate) fn documented(&self, path: &Path, report: &Report) -> Option<System> {
+        let node = self.node.as_ref()?.at(None);
+        if !node.values.is_empty() {
+            let count = node.values.len();
+            let (values, are) = if count == 1 { ("value", "is") } else { ("values", "are") };
+            let file = shown(path);
+            report.note(&format!("the {count} {values} of the node in {file} {are} shown as defaults"));
+        }
+        let mut system = self.system.clone();
+        for device in &mut system.devices {
+            *device = node.configured(device);
+        }
+        Some(system)
     }
 }
 
@@ -122,9 +136,25 @@ impl Report {
         if let Some(line) = condense(path, &mut compiled) {
             self.note(&line);
         }
-        let Compiled { system, node, stated_node_id, diagnostics, .. } = compiled;
+        let Compiled { system, node, diagnostics, .. } = compiled;
         self.show(&diagnostics, &sources);
-        Some((Used { system: system?, node, stated_node_id, device: None }, sources))
+        Some((Used { system: system?, node, device: None }, sources))
+    }
+
+    /// The node of a DCF with this node-ID, or else its own; with a warning about what does not follow the node-ID.
+    pub(crate) fn moved(&self, node: &NodeOfFile, id: Option<u8>, sources: &SourceMap) -> Commissioning {
+        let moved = node.at(id);
+        self.left_behind(node, &moved, sources);
+        moved
+    }
+
+    /// Warns about what does not follow the node-ID of a node that was made of that of a DCF.
+    pub(crate) fn left_behind(&self, of_file: &NodeOfFile, node: &Commissioning, sources: &SourceMap) {
+        if let Some(warning) = of_file.left_behind(node) {
+            let mut diagnostics = Diagnostics::new();
+            diagnostics.push(warning);
+            self.show(&diagnostics, sources);
+        }
     }
 
     /// Shows one message that has no place in a source text.

@@ -16,7 +16,7 @@ pub struct Selection<'a> {
     pub devices: &'a [String],
     /// Also a DCF of each device for this node-ID.
     pub node: Option<u8>,
-    /// The node of the DCF that the system was read from, with its values; on the node-ID above, if there is one.
+    /// The node of the DCF that the system was read from, with its values; it has the node-ID above, if there is one.
     pub configured: Option<&'a Commissioning>,
     /// Also an XDD of each device, and an XDC beside each DCF.
     pub xdd: bool,
@@ -26,11 +26,6 @@ pub struct Selection<'a> {
 pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<Artifact> {
     let devices = Devices::listed(selection.devices);
     let wanted = |device: &&Dictionary| devices.includes(&device.key);
-    let configured = selection.configured.map(|configured| {
-        let mut configured = configured.clone();
-        configured.node = selection.node.unwrap_or(configured.node);
-        configured
-    });
     // The dump is half of the work, and independent of the rest.
     std::thread::scope(|scope| {
         let files = scope.spawn(|| {
@@ -49,10 +44,9 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
                         purpose: "the same for tools that read XML".to_owned(),
                     });
                 }
-                let of_node = || selection.node.map(|node| Cow::Owned(Commissioning::of_node(device, node)));
-                let commissioning = configured.as_ref().map(Cow::Borrowed).or_else(of_node);
-                if let Some(commissioning) = commissioning {
-                    let node = commissioning.node;
+                if let Some(node) = selection.node {
+                    let of_device = || Cow::Owned(Commissioning::of_node(device, node));
+                    let commissioning = selection.configured.map_or_else(of_device, Cow::Borrowed);
                     let file = format!("{}.dcf", device.key);
                     let bytes = eds::write_dcf(system, device, &commissioning, &file);
                     let purpose = format!("the same for node {node} at {} kbit/s", commissioning.bit_rate);
@@ -68,8 +62,8 @@ pub fn artifacts(system: &System, stem: &str, selection: &Selection<'_>) -> Vec<
             list.append(&mut beside);
             list
         });
-        let bytes = match &configured {
-            Some(node) => json::dump_node(system, selection.devices, node),
+        let bytes = match selection.configured {
+            Some(node) => json::dump_node(system, selection.devices, node, selection.node),
             None => json::dump(system, selection.devices),
         };
         let mut list = files.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));

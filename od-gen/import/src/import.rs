@@ -165,7 +165,7 @@ struct NodeValues {
 
 fn node_values(compiled: &Compiled, sources: &SourceMap, system: &System, device: &Dictionary) -> NodeValues {
     let mut values = NodeValues::default();
-    let Some(node) = &compiled.node else { return values };
+    let Some(node) = compiled.node.as_ref().map(|node| node.at(None)) else { return values };
     let words = Wording::english(Notation::Diagnostic);
     // Places in the settings are none in the file.
     let mut sources = sources.clone();
@@ -187,7 +187,7 @@ fn node_values(compiled: &Compiled, sources: &SourceMap, system: &System, device
             None => values.settings.push(format!("--set \"{text}\"")),
         }
     }
-    values.texts = node_texts(node);
+    values.texts = node_texts(&node);
     values
 }
 

@@ -49,7 +49,13 @@ pub fn write(about: About<'_>, node: &Commissioning, left_out: Vec<String>) -> P
     let mut node = node.clone();
     let mut left_out = left_out;
     left_out.extend(views(about.device, &mut node));
-    node.keep_differences(about.device);
+    if about.node_id.is_some() {
+        node.keep_differences(about.device);
+    } else {
+        // Without a node-ID, it is not known which number a formula gives.
+        let default = |id: EntryId| about.device.entry(id).and_then(|entry| entry.default.as_ref());
+        node.values.retain(|id, value| default(*id) != Some(value));
+    }
     written(about, node, left_out, &[])
 }
 

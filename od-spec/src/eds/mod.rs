@@ -4,6 +4,7 @@
 //! nothing of devices, objects or types. It stands with the other front ends and not with the model, so that a text can be
 //! read, mended, compared and written back before anybody has understood it.
 
+mod bit_rate;
 pub(crate) mod check;
 pub mod codes;
 pub(crate) mod dates;

@@ -18,6 +18,7 @@ use crate::commissioning::{Commissioning, ParameterValues};
 use crate::diag::{Diagnostics, Suggestions};
 use crate::eds::read::{FileUse, NodeDecl};
 use crate::model::{Author, Dictionary, EntryId, Index, Statement, SubIndex, System, Value};
+use crate::node_of_file::NodeOfFile;
 use crate::source::{Span, Spanned};
 use crate::standard;
 
@@ -164,7 +165,7 @@ pub(crate) fn of_node(
     device: &Dictionary,
     decl: NodeDecl,
     diagnostics: &mut Diagnostics,
-) -> Commissioning {
+) -> NodeOfFile {
     // Without a node-ID the file is for any node; formulas need one to be looked at.
     let node = decl.node.unwrap_or(1);
     let usual = Commissioning::of_node(device, node);
@@ -210,5 +211,5 @@ pub(crate) fn of_node(
             FileUse::Download => files.download = Some(path.value),
         }
     }
-    read
+    NodeOfFile::of_dcf(decl.node, device, &configured, read)
 }

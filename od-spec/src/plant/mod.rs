@@ -15,17 +15,21 @@ mod read;
 pub(crate) mod rules;
 mod settle;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::ast::Name;
 use crate::commissioning::Commissioning;
 use crate::keys::PLANT_VERSION;
 use crate::model::{Dictionary, System};
+use crate::node_of_file::NodeOfFile;
 use crate::parameters::Layer;
 use crate::source::{Span, Spanned};
 
-pub use bus::{Bus, Message, Traffic};
+pub use crate::traffic::{Message, Traffic};
+pub use bus::Bus;
 pub use read::{PlantFile, plant};
+pub use rules::shared_cob_id;
 pub use settle::Settled;
 
 /// A plant, every name looked up.
@@ -67,7 +71,17 @@ pub struct PlantDevice {
     /// The device, with the values of a DCF where it is from one.
     pub dictionary: Arc<Dictionary>,
     /// Of a DCF: its node, whose values all nodes begin with.
-    pub base: Option<Arc<Commissioning>>,
+    pub base: Option<Arc<NodeOfFile>>,
+}
+
+impl PlantDevice {
+    /// The device as node `id`, with the values of a DCF where it is from one.
+    pub(crate) fn as_node(&self, id: u8) -> Cow<'_, Dictionary> {
+        match &self.base {
+            Some(base) => Cow::Owned(base.at(Some(id)).configured(&self.dictionary)),
+            None => Cow::Borrowed(&self.dictionary),
+        }
+    }
 }
 
 /// A type of machines.

@@ -11,6 +11,7 @@ use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::files::{self, Loader, add_source};
 use crate::keys;
 use crate::model::SystemSource;
+use crate::node_of_file::NodeOfFile;
 use crate::source::{FileId, SourceMap};
 use crate::yaml::{self, Document};
 
@@ -133,7 +134,7 @@ fn devices(
 /// What a file describes.
 struct Described {
     system: Arc<crate::model::System>,
-    node: Option<Arc<crate::Commissioning>>,
+    node: Option<Arc<NodeOfFile>>,
 }
 
 fn file(
@@ -195,7 +196,7 @@ fn in_file(
         return None;
     };
     let dictionary = match node {
-        Some(node) => Arc::new(node.configured(dictionary)),
+        Some(node) => Arc::new(node.at(None).configured(dictionary)),
         None => Arc::new(dictionary.clone()),
     };
     Some(PlantDevice {

@@ -45,11 +45,8 @@ impl Plant {
             .collect();
         let around = surroundings(&device.system, &device.dictionary.key, others);
         check::configuration(rules, &around, &configured, class.own.node, &mut diagnostics);
-        let mut commissioning = match &device.base {
-            Some(base) => base.as_ref().clone(),
-            None => Commissioning::of_node(&device.dictionary, class.own.node),
-        };
-        commissioning.node = class.own.node;
+        let mut commissioning =
+            Commissioning::of_file(device.base.as_deref(), &device.dictionary, class.own.node);
         commissioning.bit_rate = class.own.bit_rate;
         commissioning.values.extend(assigned.values.clone());
         commissioning.unlocked.extend(assigned.unlocked.iter().copied());
@@ -65,7 +62,8 @@ impl Plant {
     fn laid(&self, rules: Rules<'_>, member: &Member, diagnostics: &mut Diagnostics) -> Option<Laid> {
         let device = self.devices.get(member.device)?;
         let layers: Vec<&Layer> = self.layers_of(member).map(|layer| &layer.layer).collect();
-        Some(lay_over(rules, &device.system, &device.dictionary, member.node, &layers, diagnostics))
+        let dictionary = device.as_node(member.node);
+        Some(lay_over(rules, &device.system, &dictionary, member.node, &layers, diagnostics))
     }
 
     /// A locked entry is unlocked by the level that sets it: an unlock somewhere else was meant for another value.

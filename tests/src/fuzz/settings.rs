@@ -162,7 +162,7 @@ impl Target {
             .take(1)
             .map(|one| format!("a.dcf: {}: {}", one.code.id, one.message))
             .collect();
-        let Some(read) = read else {
+        let Some(read) = read.map(|read| read.at(None)) else {
             wrong.push("a.dcf: has no node".to_owned());
             return wrong;
         };

@@ -109,25 +109,29 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         Ok(templates) => templates,
         Err(problem) => return problem.show(report),
     };
-    for Built { path, used: Used { system, node: configured, stated_node_id, .. }, code } in &mut systems {
+    for Built { path, used, sources, code } in &mut systems {
+        let system = &used.system;
         let devices: Vec<&Dictionary> = system.devices.iter().filter(|device| wanted(args, device)).collect();
         if devices.is_empty() {
             continue;
         }
         let stem = &stem(path);
         summary.extend(devices.into_iter().map(describe));
-        let node = node.or(*stated_node_id);
-        if node.is_none() && configured.is_some() {
+        let node = used.node_id(node);
+        if node.is_none() && used.node.is_some() {
             report.note(&format!(
                 "{} states no node-ID, so no DCF is made; `--node ID` makes one with its values",
                 shown(path)
             ));
         }
-        let configured = configured.as_ref().filter(|_| node.is_some());
-        let selection = Selection { devices: &args.device, node, configured, xdd: args.xdd };
+        let configured = used.node.as_ref().map(|of_file| report.moved(of_file, node, sources));
+        let selection =
+            Selection { devices: &args.device, node, configured: configured.as_ref(), xdd: args.xdd };
         set.extend(artifacts(system, stem, &selection));
         set.append(code);
         if !templates.is_empty() {
+            let of_node = used.documented(path, report);
+            let system = of_node.as_ref().unwrap_or(system);
             let options = od_documents::options(system, &args.device, None);
             match od_documents::artifacts(system, "docs/", stem, &options, &templates) {
                 Ok(artifacts) => set.extend(artifacts),
@@ -199,6 +203,7 @@ fn left_from_before(args: &BuildArgs, set: &[Artifact]) -> Result<String, WriteE
 struct Built {
     path: PathBuf,
     used: Used,
+    sources: SourceMap,
     /// Its Rust modules and its C, as far as they are wanted.
     code: Vec<Artifact>,
 }
@@ -208,7 +213,7 @@ fn compile_all(specs: &[PathBuf], args: &BuildArgs, report: &Report) -> Option<V
     let built = specs.iter().map(|path| {
         let (used, sources) = report.compile_with_sources(path)?;
         let code = code(args, &used.system, &sources, report)?;
-        Some(Built { path: path.clone(), used, code })
+        Some(Built { path: path.clone(), used, sources, code })
     });
     built.collect::<Vec<_>>().into_iter().collect()
 }

@@ -73,7 +73,7 @@ fn show(args: &ConciseShowArgs, directory: &Path, report: &Report) -> Result<u8,
     let (used, _) = report.compile_with_sources(&spec).ok_or(ERRORS)?;
     let device = report.device_or_only(&used.system, args.device.as_deref())?;
     let concise = concise::read(&bytes);
-    let listing = Listing::new(&file, &concise, device, node.or(used.stated_node_id));
+    let listing = Listing::new(&file, &concise, device, used.node_id(node));
     let code = match args.format {
         ConciseFormat::Human => print(&listing.human()),
         ConciseFormat::Json => print_json(listing.json().as_bytes()),

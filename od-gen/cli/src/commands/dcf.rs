@@ -15,7 +15,7 @@ use od_gen::source::{FileLoader, open};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 use od_spec::source::{SourceMap, Spanned};
-use od_spec::{Commissioning, Layer, TextOfNode, assign_layers, bit_rate, rule_codes};
+use od_spec::{Commissioning, Layer, NodeOfFile, TextOfNode, assign_layers, bit_rate, rule_codes};
 
 use crate::exit::ERRORS;
 use crate::messages::Messages;
@@ -128,8 +128,9 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     }
     let device = files.device(&system, args.device.as_deref(), report)?;
     files.check_device(&system, device, &mut diagnostics);
-    let node = files.node(node, report).or(compiled.stated_node_id);
-    let mut commissioning = commissioning(device, node, compiled.node).map_err(refuse)?;
+    let of_file = compiled.node.as_ref();
+    let node = files.node(node, report).or_else(|| of_file?.stated_id());
+    let mut commissioning = commissioning(device, node, of_file).map_err(refuse)?;
     files.settle(device, &mut commissioning, &mut diagnostics);
     said_in_options(args, device, &mut commissioning).map_err(refuse)?;
     let node = commissioning.node;
@@ -143,6 +144,9 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     let count = assigned.values.len();
     commissioning.values.extend(assigned.values);
     commissioning.unlocked.extend(assigned.unlocked);
+    if let Some(of_file) = of_file {
+        report.left_behind(of_file, &commissioning, &sources);
+    }
     let kept = commissioning.values.len() - count;
     let as_default = if args.since_default { commissioning.keep_differences(device) } else { 0 };
     if args.explain {
@@ -223,22 +227,15 @@ fn concise(
 fn commissioning(
     device: &Dictionary,
     node: Option<u8>,
-    configured: Option<Commissioning>,
+    of_file: Option<&NodeOfFile>,
 ) -> Result<Commissioning, Diagnostic> {
-    match (node, configured) {
-        (Some(node), None) => Ok(Commissioning::of_node(device, node)),
-        (Some(node), Some(mut configured)) => {
-            configured.node = node;
-            Ok(configured)
-        }
-        (None, configured) => {
-            let message = match configured {
-                Some(_) => "no node-ID is given, and the DCF states none",
-                None => "no node-ID is given",
-            };
-            Err(Diagnostic::without_place(codes::BAD_NODE_ID, message).help("add `--node ID`, 1 to 127"))
-        }
-    }
+    node.map(|node| Commissioning::of_file(of_file, device, node)).ok_or_else(|| {
+        let message = match of_file {
+            Some(_) => "no node-ID is given, and the DCF states none",
+            None => "no node-ID is given",
+        };
+        Diagnostic::without_place(codes::BAD_NODE_ID, message).help("add `--node ID`, 1 to 127")
+    })
 }
 
 /// Takes what the options say about the node but its node-ID and its values.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use od_diff::{Difference, Question, Scope, Unpaired, compare, human, json, markdown, short};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::{Commissioning, assign_layers, is_parameter_file};
+use od_spec::{Commissioning, NodeOfFile, assign_layers, is_parameter_file};
 
 use crate::exit::{DIFFERS, ERRORS};
 use crate::messages::Color;
@@ -123,7 +123,7 @@ fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
                 ));
             }
             let system = git::compile(revision, &args.old, report)?;
-            let old = Used { system, node: None, stated_node_id: None, device: None };
+            let old = Used { system, node: None, device: None };
             (old, read(&args.old)?, Scope::Everything)
         }
         (None, Some(new)) => {
@@ -169,34 +169,34 @@ fn configured(path: &Path, args: &DiffArgs, report: &Report) -> Result<Used, u8>
         .map_err(|diagnostic| report.refuse(*diagnostic))?;
     let device = files.device(&used.system, args.device.as_deref(), report)?;
     files.check_device(&used.system, device, &mut diagnostics);
-    let stated_node_id = files.node(None, report);
-    let mut node = Commissioning::of_node(device, stated_node_id.unwrap_or(1));
+    let stated = used.node_id(files.node(None, report));
+    let mut node = Commissioning::of_file(used.node.as_ref(), device, stated.unwrap_or(1));
     files.settle(device, &mut node, &mut diagnostics);
     let layers = files.into_layers();
-    let assigned = assign_layers(&used.system, device, node.node, &layers, &mut diagnostics);
+    let configured = node.configured(device);
+    let assigned = assign_layers(&used.system, &configured, node.node, &layers, &mut diagnostics);
     diagnostics.sort();
     report.show(&diagnostics, &sources);
     if diagnostics.has_errors() {
         return Err(ERRORS);
     }
-    (node.values, node.unlocked) = (assigned.values, assigned.unlocked);
+    node.values.extend(assigned.values);
+    node.unlocked.extend(assigned.unlocked);
     let device = Some(device.key.clone());
-    Ok(Used { system: used.system, node: Some(node), stated_node_id, device })
+    Ok(Used { system: used.system, node: Some(NodeOfFile::of_settings(stated, node)), device })
 }
 
 /// The nodes of two DCF or parameter files. Values of one alone cannot be compared, which is said.
 fn nodes(old: &Used, new: &Used, report: &Report) -> Option<(Commissioning, Commissioning)> {
     match (&old.node, &new.node) {
         (Some(before), Some(after)) => {
-            let (mut before, after) = (before.clone(), after.clone());
-            if old.stated_node_id.is_none() || new.stated_node_id.is_none() {
-                before.node = after.node;
-            }
-            Some((before, after))
+            // One without a node-ID may be the other's node.
+            let (first, second) = (before.stated_id(), after.stated_id());
+            Some((before.at(first.or(second)), after.at(second.or(first))))
         }
         (Some(one), None) | (None, Some(one)) => {
-            if !one.values.is_empty() {
-                let number = one.values.len();
+            let number = one.at(None).values.len();
+            if number > 0 {
                 let (values, are) = if number == 1 { ("value", "is") } else { ("values", "are") };
                 report.note(&format!(
                     "the {number} {values} set for the node {are} not compared, as the other side is about no node"

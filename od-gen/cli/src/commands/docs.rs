@@ -133,7 +133,10 @@ fn formats(args: &DocsArgs) -> Vec<DocsFormat> {
 
 /// Compiles everything, so that all messages are shown; `None` if any has errors.
 fn compile_all(specs: &[PathBuf], report: &Report) -> Option<Vec<(String, System)>> {
-    let systems = specs.iter().map(|path| Some((stem(path), report.compile(path)?)));
+    let systems = specs.iter().map(|path| {
+        let (used, _) = report.compile_with_sources(path)?;
+        Some((stem(path), used.documented(path, report).unwrap_or(used.system)))
+    });
     systems.collect::<Vec<_>>().into_iter().collect()
 }
 

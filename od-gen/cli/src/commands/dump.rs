@@ -32,13 +32,14 @@ pub(crate) fn run(args: &DumpArgs, directory: &Path, report: &Report) -> u8 {
         Err(code) => return code,
     };
     let Some((used, _)) = report.compile_with_sources(&spec) else { return ERRORS };
-    let node = used.stated_node();
+    let id = used.node_id(None);
+    let node = used.node.map(|node| node.at(id));
     let system = used.system;
     if let Err(code) = args.device.iter().try_for_each(|key| report.device(&system, key).map(drop)) {
         return code;
     }
     let dump = match node {
-        Some(node) => od_formats::json::dump_node(&system, &args.device, &node),
+        Some(node) => od_formats::json::dump_node(&system, &args.device, &node, id),
         None => od_formats::json::dump(&system, &args.device),
     };
     print_json(&dump)

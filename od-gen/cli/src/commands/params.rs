@@ -55,9 +55,9 @@ fn params(args: &ParamsArgs, report: &Report) -> Result<u8, u8> {
                 sources: &sources,
                 device: of_file,
                 names_device: false,
-                node_id: file.stated_node_id,
+                node_id: file.node_id(None),
             };
-            write(about, node, Vec::new())
+            write(about, &node, Vec::new())
         }
         Some(spec) => {
             let (used, sources) = report.compile_with_sources(spec).ok_or(ERRORS)?;
@@ -67,9 +67,9 @@ fn params(args: &ParamsArgs, report: &Report) -> Result<u8, u8> {
                 sources: &sources,
                 device,
                 names_device: true,
-                node_id: file.stated_node_id,
+                node_id: file.node_id(None),
             };
-            of_specification(about, of_file, node)
+            of_specification(about, of_file, &node)
         }
     };
     let ParameterText { text, count, left_out, findings, .. } = written;
@@ -92,9 +92,9 @@ fn params(args: &ParamsArgs, report: &Report) -> Result<u8, u8> {
 }
 
 /// The device of a DCF and the node that it configures.
-fn dcf<'a>(file: &'a Used, path: &Path) -> Result<(&'a Dictionary, &'a Commissioning), Diagnostic> {
+fn dcf<'a>(file: &'a Used, path: &Path) -> Result<(&'a Dictionary, Commissioning), Diagnostic> {
     let device = file.system.devices.first();
-    device.zip(file.node.as_ref()).ok_or_else(|| {
+    device.zip(file.node.as_ref().map(|node| node.at(None))).ok_or_else(|| {
         let message = format!("{} is no DCF", path.display());
         Diagnostic::without_place(codes::UNREADABLE, message)
             .help("name a DCF: a specification and an EDS hold no values of a node")

@@ -70,12 +70,11 @@ fn st(args: &StArgs, directory: &Path, report: &Report) -> Result<u8, u8> {
     let devices = Devices::listed(&args.device);
     let mut set = Vec::new();
     let mut left_out = Vec::new();
-    for (used, _) in &used {
-        let configured = used.stated_node();
-        let node = node.or(used.stated_node_id);
+    for (used, sources) in &used {
+        let node = used.node_id(node);
+        let configured = used.node.as_ref().map(|of_file| report.moved(of_file, node, sources));
         for device in used.system.devices.iter().filter(|device| devices.includes(&device.key)) {
-            // A DCF says what its own node is set to; another node of the device has the defaults.
-            let configured = configured.as_ref().filter(|configured| Some(configured.node) == node);
+            let configured = configured.as_ref();
             let device = configured.map_or(Cow::Borrowed(device), |node| Cow::Owned(node.configured(device)));
             let written = write_device(&used.system, &device, node, code.as_deref());
             set.extend(written.artifacts);

@@ -8,8 +8,8 @@ use crate::provoked::{ADAPTER, PROVOKED};
 use crate::{Scratch, odgen, stderr};
 
 /// Name and text of each file: a lamp whose 1017h departs from cia301, a template with a mistake, a file that each of five readers
-/// refuses for something, two files that are no concise DCF, a trace with a bad line, three that are no XDD, and an XDD with a fault of
-/// each kind.
+/// refuses for something, two files that are no concise DCF, a trace with a bad line, a DCF without formulas, three that are no XDD, and
+/// an XDD with a fault of each kind.
 const FILES: &[(&str, &str)] = &[
     (
         "lamp.od.yaml",
@@ -21,6 +21,11 @@ const FILES: &[(&str, &str)] = &[
     ("cut.bin", "\u{1}"),
     ("long.bin", "\0\0\0\0\u{1}"),
     ("bad.log", "can0 18x#\n"),
+    (
+        "fixed.dcf",
+        "[DeviceInfo]\nBaudRate_125=1\n[DeviceComissioning]\nNodeID=5\nBaudrate=125\n\
+         [1014]\nParameterName=EMCY\nDataType=7\nAccessType=rw\nDefaultValue=0x85\n",
+    ),
     ("open.xdd", "<a>"),
     ("typed.xdd", "<!DOCTYPE a><a/>"),
     ("other.xdd", "<a/>"),

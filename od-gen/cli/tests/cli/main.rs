@@ -26,6 +26,7 @@ mod machine;
 mod monitor;
 mod new;
 mod node;
+mod node_of_file;
 mod parts;
 mod plant;
 mod provoked;

@@ -63,6 +63,7 @@ pub(crate) const PROVOKED: &[Provocation] = &[
         arguments: &["node", "read", "lamp.od.yaml", "--node", "5", "--slcan", ADAPTER, "1017"],
     },
     Provocation { code: "OD0718", arguments: &["serve", "lamp.od.yaml", "--node", "5", "--watch"] },
+    Provocation { code: "OD0721", arguments: &["dcf", "fixed.dcf", "--node", "9"] },
     Provocation { code: "OD0811", arguments: &["check", "lamp.od.yaml", "--notes"] },
     Provocation { code: "XDD101", arguments: &["check", "open.xdd"] },
     Provocation { code: "XDD102", arguments: &["check", "typed.xdd"] },

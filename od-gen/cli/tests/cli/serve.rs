@@ -5,6 +5,7 @@ use std::net::TcpStream;
 use std::process::Stdio;
 use std::time::Duration;
 
+use crate::node_of_file::{PUMP, without_node};
 use crate::plant::presses;
 use crate::served::{Served, interrupt};
 use crate::{LAMP, Scratch, code, odgen, stderr};
@@ -104,6 +105,32 @@ impl WithClient {
         let frame = str::from_utf8(&frame).unwrap();
         let digits = frame.strip_prefix("t1851").unwrap_or_else(|| panic!("{frame:?}"));
         u8::from_str_radix(digits.trim_end(), 16).unwrap()
+    }
+}
+
+/// A DCF says what its node is set to, whatever gives the node-ID, and what follows the node-ID moves with it.
+#[test]
+fn nodes_have_the_values_of_their_dcf() {
+    for (name, pump, node, cob_id) in [
+        ("own", PUMP.to_owned(), 5, "85"),
+        ("without", without_node(), 5, "85"),
+        ("moved", PUMP.to_owned(), 9, "89"),
+    ] {
+        let scratch = Scratch::new(&format!("serve-dcf-{name}"));
+        scratch.file("pump.dcf", pump);
+        let arguments = ["pump.dcf", "--node", &node.to_string()];
+        let mut served = WithClient::of(Served::start(&scratch, &arguments, Stdio::null()));
+        served.ask("O\r", "\r");
+        let mut ask = |entry: &str, command: &str, value: &str| {
+            served.ask(
+                &format!("t60{node}840{entry}00000000\r"),
+                &format!("z\rt58{node}8{command}{entry}{value}\r"),
+            );
+        };
+        ask("001A00", "4F", "01000000");
+        ask("001A01", "43", "10000220");
+        ask("002000", "4B", "DC050000");
+        ask("001801", "43", &format!("{cob_id}010000"));
     }
 }
 

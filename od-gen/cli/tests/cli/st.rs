@@ -63,10 +63,15 @@ fn a_dcf_brings_its_node_and_its_values() {
     let constants = read(&scratch, "lamp-constants.st");
     assert!(constants.contains("LAMP_RPDO1_CAN_ID : UDINT := 16#209;"), "{constants}");
     assert!(constants.contains("LAMP_BRIGHTNESS_DEFAULT : USINT := 25;"), "{constants}");
-    // Another node of the device has its defaults.
-    assert_eq!(code(&odgen(&scratch.0, &["st", "lamp.dcf", "--node", "3", "--out", "."])), 0);
+    // With another node-ID it is set alike; the COB-ID has lost its formula, which is reported.
+    let output = odgen(&scratch.0, &["st", "lamp.dcf", "--node", "3", "--out", "."]);
+    assert!(
+        code(&output) == 0 && stderr(&output).contains("node 3 uses 209h, a COB-ID of node 9"),
+        "{}",
+        stderr(&output)
+    );
     let constants = read(&scratch, "lamp-constants.st");
-    assert!(constants.contains("LAMP_BRIGHTNESS_DEFAULT : USINT := 80;"), "{constants}");
+    assert!(constants.contains("LAMP_BRIGHTNESS_DEFAULT : USINT := 25;"), "{constants}");
 }
 
 #[test]

@@ -26,9 +26,9 @@ pub fn dump(system: &System, devices: &[String]) -> Vec<u8> {
     print(system, devices, None)
 }
 
-/// The dump of a system that was read from a DCF, with the node that this configures.
-pub fn dump_node(system: &System, devices: &[String], node: &Commissioning) -> Vec<u8> {
-    let view = system.devices.first().map(|device| NodeView::new(device, node));
+/// The dump of a system that was read from a DCF, with the node that this configures and the node-ID, if there is one.
+pub fn dump_node(system: &System, devices: &[String], node: &Commissioning, id: Option<u8>) -> Vec<u8> {
+    let view = system.devices.first().map(|device| NodeView::new(device, node, id));
     print(system, devices, view)
 }
 

@@ -9,7 +9,8 @@ use super::{device, entry_id, index};
 #[derive(Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) struct NodeView<'a> {
-    node_id: u8,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    node_id: Option<u8>,
     node_name: &'a str,
     bit_rate: u16,
     net_number: u32,
@@ -48,7 +49,7 @@ struct FilesView<'a> {
 }
 
 impl<'a> NodeView<'a> {
-    pub(super) fn new(device: &Dictionary, node: &'a Commissioning) -> Self {
+    pub(super) fn new(device: &Dictionary, node: &'a Commissioning, node_id: Option<u8>) -> Self {
         let values = node.values.iter().filter_map(|(id, value)| {
             let entry = device.entry(*id)?;
             Some(ValueView { entry: entry_id(*id), value: device::value(id.index, entry, value) })
@@ -64,7 +65,7 @@ impl<'a> NodeView<'a> {
             download: download.as_deref(),
         });
         Self {
-            node_id: node.node,
+            node_id,
             node_name: &node.node_name,
             bit_rate: node.bit_rate,
             net_number: node.net_number,

@@ -4,6 +4,7 @@
 use super::{made, owned};
 use crate::ast::{DeviceDecl, FileDecl, Name, ObjectDecl, VendorDecl};
 use crate::decode::is_device_key;
+use crate::eds::bit_rate::BIT_RATES;
 use crate::eds::dates::{date, time};
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
@@ -13,9 +14,6 @@ use crate::source::{Span, Spanned};
 
 /// The longest key of a device.
 const LONGEST_KEY: usize = 32;
-
-/// Bit rates that an EDS has keys for, in kbit/s.
-const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
 /// The device. Its key is made from the name of the file.
 pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -> DeviceDecl {

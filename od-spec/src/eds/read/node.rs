@@ -2,6 +2,7 @@
 
 use crate::ast::Name;
 use crate::commissioning::Denoted;
+use crate::eds::bit_rate::of_bits_per_second;
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
@@ -58,7 +59,8 @@ pub(super) fn read(view: &View<'_>) -> NodeDecl {
     NodeDecl {
         node: number("NodeID").and_then(|id| u8::try_from(id).ok()).filter(|id| (1..=127).contains(id)),
         node_name: text("NodeName"),
-        bit_rate: number("Baudrate").and_then(|rate| u16::try_from(rate).ok()),
+        bit_rate: number("Baudrate")
+            .and_then(|rate| of_bits_per_second(rate).or_else(|| u16::try_from(rate).ok())),
         net_number: number("NetNumber").and_then(|number| u32::try_from(number).ok()),
         net_name: text("NetworkName"),
         serial_number: number("LSS_SerialNumber")

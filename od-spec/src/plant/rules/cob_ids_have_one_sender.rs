@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use super::{Check, Rule};
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
-use crate::plant::bus::shown;
+use crate::model::Dictionary;
 use crate::plant::{Bus, Message, Traffic};
+use crate::traffic::{messages, shown};
 
 pub(super) const RULE: Rule = Rule { codes: &[CODE], check: Check::Bus(check) };
 
@@ -76,4 +77,25 @@ fn finding(bus: &Bus<'_>, id: u32, first: &Message, second: &Message) -> Option<
         Some(place) => diagnostic.with(place, other.short(plant)),
         None => diagnostic,
     })
+}
+
+/// Returns what is wrong where two nodes of a bus, each with its node-ID and its values, send messages with one COB-ID. Any
+/// number of nodes may be able to send SYNC or TIME.
+pub fn shared_cob_id(first: (u8, &Dictionary), second: (u8, &Dictionary)) -> Option<Diagnostic> {
+    let sent = |(id, device): (u8, &Dictionary)| {
+        let mut sent = messages(device, id);
+        sent.retain(|one| one.is_sent && !matches!(one.traffic, Traffic::Sync | Traffic::Time));
+        sent
+    };
+    let of_second = sent(second);
+    let (one, other) = sent(first).into_iter().find_map(|one| {
+        let other = of_second.iter().find(|other| other.id == one.id)?;
+        Some((one, other))
+    })?;
+    let words = |message: &Message, (id, device): (u8, &Dictionary)| {
+        format!("{} of {} (node {id})", message.traffic.words(), device.key)
+    };
+    let message =
+        format!("{} and {} have the COB-ID {}", words(&one, first), words(other, second), shown(one.id));
+    Some(Diagnostic::without_place(CODE, message).help("give one of them another COB-ID, or switch it off (bit 31)"))
 }

@@ -4,6 +4,8 @@ use super::{Bus, Plant};
 use crate::diag::{Code, Diagnostics};
 use crate::rules::rules;
 
+pub use cob_ids_have_one_sender::shared_cob_id;
+
 /// A rule about plants.
 pub(crate) struct Rule {
     /// Its codes, with severity and explanation.

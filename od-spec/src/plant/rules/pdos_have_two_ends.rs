@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use super::{Check, Rule};
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
-use crate::plant::bus::shown;
 use crate::plant::{Bus, Message, Traffic};
+use crate::traffic::shown;
 
 pub(super) const RULE: Rule = Rule { codes: &[RECEIVED, SENT], check: Check::Bus(check) };
 

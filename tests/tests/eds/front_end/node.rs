@@ -20,7 +20,7 @@ const PUMP: &str = "[DeviceInfo]\nBaudRate_125=1\nGranularity=8\n[DeviceComissio
     [2003]\nParameterName=program\nObjectType=2\nAccessType=rw\nUploadFile=out/old.bin\nDownloadFile=C:\\new.bin\n";
 
 fn node(name: &str, text: &str) -> Commissioning {
-    compiled(name, text).0.node.unwrap()
+    compiled(name, text).0.node.unwrap().at(None)
 }
 
 /// Names with what they belong to.
@@ -76,8 +76,9 @@ fn a_dcf_made_of_a_dcf_keeps_them() {
 #[test]
 fn the_dump_shows_the_node_of_a_dcf() {
     let (compiled, _) = compiled("pump.dcf", PUMP);
-    let (system, node) = (compiled.system.unwrap(), compiled.node.unwrap());
-    let dump_of_node: serde_json::Value = serde_json::from_slice(&dump_node(&system, &[], &node)).unwrap();
+    let (system, node) = (compiled.system.unwrap(), compiled.node.unwrap().at(None));
+    let dump_of_node: serde_json::Value =
+        serde_json::from_slice(&dump_node(&system, &[], &node, Some(7))).unwrap();
     let shown = &dump_of_node["node"];
     assert_eq!((shown["node-id"].as_u64(), shown["bit-rate"].as_u64()), (Some(7), Some(125)));
     assert_eq!(shown["values"][0]["entry"], "0x2001.1");

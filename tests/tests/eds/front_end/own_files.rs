@@ -87,7 +87,7 @@ fn our_files_are_without_fault() {
 #[test]
 fn a_node_comes_back() {
     let (compiled, _) = compiled("generated/eds/pmc.dcf", &text("generated/eds/pmc.dcf"));
-    let node = compiled.node.unwrap();
+    let node = compiled.node.unwrap().at(None);
     assert_eq!((node.node, node.bit_rate), (1, 250));
     let system = compile_clean(SHIPPED[1].0).unwrap();
     let mut written = od_spec::Commissioning::of_node(system.device("pmc").unwrap(), 5);
@@ -101,6 +101,6 @@ fn a_node_comes_back() {
     written.values = od_spec::assign(&system, pmc, 5, &[setting], &mut diagnostics);
     assert!(!diagnostics.has_errors());
     let dcf = String::from_utf8(od_formats::eds::write_dcf(&system, pmc, &written, "axis.dcf")).unwrap();
-    let read = super::compiled("axis.dcf", &dcf).0.node.unwrap();
+    let read = super::compiled("axis.dcf", &dcf).0.node.unwrap().at(None);
     assert_eq!(read, written);
 }

@@ -151,8 +151,9 @@ fn an_xdc_says_what_the_dcf_says() {
     let node = configured(&system, device);
     let dcf = |name: &str, bytes: Vec<u8>| {
         let (system, compiled) = read(name, bytes);
-        assert_eq!(compiled.stated_node_id, Some(5), "{name}");
         let node = compiled.node.unwrap();
+        assert_eq!(node.stated_id(), Some(5), "{name}");
+        let node = node.at(None);
         (write_dcf(&system, &system.devices[0], &node, "node.dcf"), node)
     };
     let (by_xdc, found) = dcf("everything.xdc", write_xdc(&system, device, &node, "everything.xdc"));
@@ -170,8 +171,8 @@ fn an_xdc_says_what_the_dcf_says() {
     assert!(text.contains("\n<!-- Tank 3, north - - not <south> -->\n<!-- zweite Zeile - - - - - -->\n"));
     // What was read from an XDC makes the same XDC.
     let (again, compiled) = read("everything.xdc", write_xdc(&system, device, &node, "everything.xdc"));
-    let first = write_xdc(&again, &again.devices[0], &compiled.node.unwrap(), "everything.xdc");
+    let first = write_xdc(&again, &again.devices[0], &compiled.node.unwrap().at(None), "everything.xdc");
     let (third, compiled) = read("everything.xdc", first.clone());
-    let second = write_xdc(&third, &third.devices[0], &compiled.node.unwrap(), "everything.xdc");
+    let second = write_xdc(&third, &third.devices[0], &compiled.node.unwrap().at(None), "everything.xdc");
     assert_eq!(String::from_utf8(second).unwrap(), String::from_utf8(first).unwrap());
 }

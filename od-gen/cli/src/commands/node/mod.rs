@@ -8,6 +8,7 @@ mod monitor;
 mod network;
 mod reach;
 
+use std::cell::OnceCell;
 use std::path::Path;
 
 use od_bus::client::AccessError;
@@ -45,7 +46,12 @@ pub(crate) fn run(args: &NodeArgs, directory: &Path, report: &Report) -> u8 {
 /// What the specification or the plant of a command line says.
 enum Described {
     /// Devices, one of which a node is; with the texts that they were read from, into which messages about values point.
-    Devices { used: Box<Used>, sources: SourceMap },
+    Devices {
+        used: Box<Used>,
+        sources: SourceMap,
+        /// Of a DCF: the device with the values of the node that is meant.
+        configured: OnceCell<Dictionary>,
+    },
     /// A machine with its nodes.
     Machine(Machine),
 }
@@ -71,7 +77,7 @@ impl Described {
         }
         let spec = crate::specs::one(Some(&args.spec), Path::new("."), report)?;
         let (used, sources) = report.compile_with_sources(&spec).ok_or(ERRORS)?;
-        Ok(Self::Devices { used: Box::new(used), sources })
+        Ok(Self::Devices { used: Box::new(used), sources, configured: OnceCell::new() })
     }
 
     fn sources(&self) -> &SourceMap {
@@ -91,8 +97,8 @@ impl Described {
         let stated = args.node.as_deref().map(node_id).transpose().map_err(|one| report.refuse(one))?;
         let stated = stated.or_else(|| files.and_then(ParameterFiles::stated_node));
         let key = args.device.as_deref();
-        let used = match self {
-            Self::Devices { used, .. } => used,
+        let (used, sources, configured) = match self {
+            Self::Devices { used, sources, configured } => (used, sources, configured),
             Self::Machine(machine) => return machine.target(stated, key, report),
         };
         let system = &used.system;
@@ -100,12 +106,18 @@ impl Described {
             Some(files) => files.device(system, key, report)?,
             None => report.device_or_only(system, key)?,
         };
-        let id = stated.or(used.stated_node_id).ok_or_else(|| {
+        let id = used.node_id(stated).ok_or_else(|| {
             report.refuse(
                 Diagnostic::without_place(codes::BAD_NODE_ID, "no node-ID is given")
                     .help("add `--node ID`, 1 to 127"),
             )
         })?;
+        let device = match &used.node {
+            Some(of_file) => {
+                configured.get_or_init(|| report.moved(of_file, Some(id), sources).configured(device))
+            }
+            None => device,
+        };
         Ok(Target { id, position: None, system, device })
     }
 }

@@ -1,8 +1,8 @@
 //! The bit rate is one of CiA 301, in kbit/s.
 
-use super::super::information::a_bit_rate_is_supported::BIT_RATES;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
+use crate::eds::bit_rate::{BIT_RATES, of_bits_per_second};
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
@@ -33,9 +33,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     }
     let message = format!("found `{}`, expected a bit rate in kbit/s", shorten(value.value));
     let diagnostic = Diagnostic::new(CODE, value.span, message);
-    // A bit rate in bit/s is far above every one in kbit/s.
-    let in_kbit = BIT_RATES.into_iter().find(|standard| rate == Some(i128::from(*standard) * 1000));
-    diagnostics.push(match in_kbit {
+    diagnostics.push(match rate.and_then(of_bits_per_second) {
         Some(standard) => {
             let mut diagnostic = diagnostic.help(format!("write `Baudrate={standard}`; `odgen fix` does"));
             diagnostic.edits.push(Edit { span: value.span, text: standard.to_string() });

@@ -1,8 +1,8 @@
 //! The node has a bit rate that the device supports.
 
-use super::super::information::a_bit_rate_is_supported::BIT_RATES;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::eds::bit_rate::BIT_RATES;
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;

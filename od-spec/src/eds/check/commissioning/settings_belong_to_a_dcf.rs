@@ -4,8 +4,9 @@ use super::super::keys;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::is_dcf;
-use crate::eds::names::Topic;
+use crate::eds::names::{ElementList, Topic};
 use crate::eds::view::View;
+use crate::source::Span;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 
@@ -15,8 +16,9 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "settings of a node in an EDS",
     explanation: "`ParameterValue`, `Denotation` and `[DeviceComissioning]` are settings of one node and belong to a DCF. In an \
-        EDS they hide the defaults: python-canopen takes a COB-ID of one node for all of them. Call the file `.dcf`, or \
-        remove the settings.",
+        EDS they hide the defaults: python-canopen takes a COB-ID of one node for all of them. An EDS with \
+        `[DeviceComissioning]` is read as a DCF; without the section, the settings are left out of everything that is made \
+        from the file. Call the file `.dcf`, or remove the settings.",
     clause: Some("CiA 306 5.1"),
     example: Some(Example::eds(
         "[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=rw\nDefaultValue=0\nParameterValue=5",
@@ -35,12 +37,22 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             Diagnostic::new(CODE, part.place(), "`[DeviceComissioning]` belongs to a DCF").help(HELP)
         });
     }
-    for (_, part) in view.topics().filter(|(topic, _)| keys::is_of_object(*topic)) {
-        for key in ["ParameterValue", "Denotation"] {
-            let Some(value) = part.value(key) else { continue };
-            found.add(value.span, [], || {
-                Diagnostic::new(CODE, value.span, format!("`{key}` belongs to a DCF")).help(HELP)
-            });
+    let end = if view.is_dcf { "" } else { ", and is left out" };
+    let mut add = |what: &str, place: Span| {
+        let message = format!("`{what}` belongs to a DCF{end}");
+        found.add(place, [], || Diagnostic::new(CODE, place, message).help(HELP));
+    };
+    for (topic, part) in view.topics() {
+        match topic {
+            _ if keys::is_of_object(topic) => {
+                for key in ["ParameterValue", "Denotation"] {
+                    part.value(key).iter().for_each(|value| add(key, value.span));
+                }
+            }
+            Topic::Elements(_, ElementList::Value | ElementList::Denotation) => {
+                add(&format!("[{}]", part.name().value), part.place());
+            }
+            _ => {}
         }
     }
     found.finish("settings", diagnostics);
