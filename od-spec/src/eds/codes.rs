@@ -1,7 +1,7 @@
 //! What reading an EDS or DCF can say about its objects and values. The code of a rule over the text alone stands with the
 //! rule.
 
-pub use super::check::{LINKS_OF_NOTHING, NO_INDEX};
+pub use super::check::{LINKS_OF_NOTHING, NO_INDEX, SETTINGS_IN_EDS};
 use crate::diag::{Code, Severity};
 
 macro_rules! codes {

@@ -54,8 +54,8 @@ fn values_hold_whoever_gives_the_node_id() {
         run(&["dbc", "pump.dcf", "--out", "pump.dbc"]);
         let dbc = text(&scratch, "pump.dbc");
         for message in [
-            "BO_ 389 pump_5_TPDO1: 2 pump_5\r\n SG_ Torque : 0|16",
-            "BO_ 645 pump_5_TPDO2: 2 pump_5\r\n SG_ Status : 0|16",
+            "BO_ 389 pump_5_TPDO1: 2 pump_5\r\n SG_ torque : 0|16",
+            "BO_ 645 pump_5_TPDO2: 2 pump_5\r\n SG_ status : 0|16",
         ] {
             assert!(dbc.contains(message), "{name}: {dbc}");
         }
@@ -183,7 +183,7 @@ fn a_bit_rate_in_bit_per_second_is_read_as_it_is_mended() {
     let scratch = Scratch::new("node-of-file-rate");
     scratch.file("pump.dcf", PUMP.replace("Baudrate=500", "Baudrate=500000"));
     let (code, _, wrong) = run(&scratch, &["dcf", "pump.dcf", "--out", "made.dcf"]);
-    assert!(code == 0 && wrong.contains("EDS705"), "{wrong}");
+    assert_eq!(code, 0, "{wrong}");
     assert!(text(&scratch, "made.dcf").contains("\r\nBaudrate=500\r\n"));
 }
 
@@ -196,5 +196,5 @@ fn values_in_an_eds_are_left_out_and_reported_once() {
     assert_eq!(code, 0, "{wrong}");
     assert_eq!(wrong.matches("left out").count(), 1, "{wrong}");
     assert!(wrong.contains("`ParameterValue` belongs to a DCF, and is left out; 5 more settings"), "{wrong}");
-    assert!(text(&scratch, "pump-5.dbc").contains("SG_ Status"));
+    assert!(text(&scratch, "pump-5.dbc").contains("SG_ status"));
 }

@@ -10,7 +10,8 @@ use crate::source::Span;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "EDS709",
     severity: Severity::Warning,
     foreign: Severity::Warning,
