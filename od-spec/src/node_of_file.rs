@@ -78,10 +78,11 @@ impl NodeOfFile {
             }
             found.add(*span, [], || {
                 let (what, cob_id, id) = (message.traffic.words(), shown(message.id), node.node);
+                let base = message.id.saturating_sub(origin.into());
                 let text = format!("{entry}: node {id} uses {cob_id}, a COB-ID of node {origin}, for {what}");
-                Diagnostic::new(codes::COB_ID_OF_OTHER_NODE, *span, text).help(format!(
-                    "set it for node {id}, or write a formula such as `$NODEID+0x180` in the file"
-                ))
+                let of_node = shown(base + u32::from(id));
+                let help = format!("set {of_node} for node {id}, or write `$NODEID+0x{base:X}` in the file");
+                Diagnostic::new(codes::COB_ID_OF_OTHER_NODE, *span, text).help(help)
             });
         }
         found.into_diagnostic("COB-IDs")
