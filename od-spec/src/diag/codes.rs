@@ -214,8 +214,6 @@ codes! {
             "parameters: {calibration: 101}\nunlock: [calibration, lowest voltage]",
             "parameters: {calibration: 101}\nunlock: [calibration]"
         )]
-    COB_ID_OF_OTHER_NODE Warning "OD0721" "a COB-ID of the node-ID that a file is for":
-        "A DCF or XDC is the configuration of one node, and a command takes it for another node-ID. Values that the node-ID formula of their default gives follow the node-ID. This COB-ID does not: the file has a number without a formula, and it is one of those that CiA 301 reserves for the first node-ID (table 34). If both nodes are on one bus, both send the same message, or receive what is meant for the other. Many tools resolve `$NODEID` when they write a DCF, so that its defaults are numbers as well: make the file of another node from the EDS or the specification. A COB-ID that is meant like this can be set on purpose."
     UNKNOWN_IN_PLANT Error "OD0730" "a name that the plant does not have":
         "What is said of a type, a position or a device at a position has to be about one that there is: on a machine that has no such thing, nothing would happen, and nobody would notice. Types stand under `types:`; the positions of a machine and the devices there are those of its type. A machine with other devices is of another type."
         [Example::plant(
@@ -248,6 +246,8 @@ codes! {
         )]
     STACK_DIFFERS Warning "OD0860" "something that the stack wants set up":
         "CANopenNode has a configuration of its own, and takes some things otherwise than the dictionary says. The files are made and compile; the message tells what is to be done in the project that takes them, or what is different on the bus."
+    COB_ID_OF_OTHER_NODE Warning "OD0861" "a COB-ID of the node-ID that a file is for":
+        "A DCF or XDC is the configuration of one node, and a command takes it for another node-ID. Values that the node-ID formula of their default gives follow the node-ID. This COB-ID does not: the file has a number without a formula, and it is one of those that CiA 301 reserves for the first node-ID (table 34). If both nodes are on one bus, both send the same message, or receive what is meant for the other. Many tools resolve `$NODEID` when they write a DCF, so that its defaults are numbers as well: make the file of another node from the EDS or the specification. A COB-ID that is meant like this can be set on purpose."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
         "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":

@@ -108,7 +108,7 @@ fn what_follows_the_node_id_moves_with_it() {
     let run = |arguments: &[&str]| {
         let (code, said, wrong) = run(&scratch, &[arguments, &["--node", "9"]].concat());
         assert_eq!(code, 0, "{wrong}");
-        assert!(!wrong.contains("OD0721"), "{wrong}");
+        assert!(!wrong.contains("OD0861"), "{wrong}");
         said
     };
     assert!(run(&["dcf", "pump.dcf", "--out", "moved.dcf"]).contains("pump node 9, 0 values set, 6 kept"));
@@ -131,7 +131,7 @@ fn what_follows_the_node_id_moves_with_it() {
 fn a_cob_id_without_a_formula_is_reported() {
     let scratch = Scratch::new("node-of-file-fixed");
     scratch.file("pump.dcf", with_fixed_cob_id());
-    let warning = "warning[OD0721]: 1801h.1: node 9 uses 285h, a COB-ID of node 5, for TPDO 2";
+    let warning = "warning[OD0861]: 1801h.1: node 9 uses 285h, a COB-ID of node 5, for TPDO 2";
     for arguments in [
         &["dcf", "pump.dcf", "--node", "9", "--out", "moved.dcf"][..],
         &["dbc", "pump.dcf", "--node", "9"],
@@ -152,7 +152,7 @@ fn a_cob_id_without_a_formula_is_reported() {
         &["dcf", "pump.dcf", "--node", "9", "--set", "1801.1=0x289", "--out", "moved.dcf"],
     ] {
         let (code, _, wrong) = run(&scratch, arguments);
-        assert!(code == 0 && !wrong.contains("OD0721"), "{arguments:?}: {wrong}");
+        assert!(code == 0 && !wrong.contains("OD0861"), "{arguments:?}: {wrong}");
     }
 }
 

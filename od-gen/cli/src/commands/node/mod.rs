@@ -50,7 +50,7 @@ enum Described {
         used: Box<Used>,
         sources: SourceMap,
         /// Of a DCF: the device with the values of the node that is meant.
-        configured: OnceCell<Dictionary>,
+        configured: Box<OnceCell<Dictionary>>,
     },
     /// A machine with its nodes.
     Machine(Machine),
@@ -77,7 +77,7 @@ impl Described {
         }
         let spec = crate::specs::one(Some(&args.spec), Path::new("."), report)?;
         let (used, sources) = report.compile_with_sources(&spec).ok_or(ERRORS)?;
-        Ok(Self::Devices { used: Box::new(used), sources, configured: OnceCell::new() })
+        Ok(Self::Devices { used: Box::new(used), sources, configured: Box::default() })
     }
 
     fn sources(&self) -> &SourceMap {
