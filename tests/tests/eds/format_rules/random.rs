@@ -82,12 +82,12 @@ fn go_through(name: &str, bytes: &[u8]) {
         let text = sources.file(span.file).text();
         assert!(text.get(span.start as usize..span.end as usize).is_some(), "{span:?}");
     }
-    let fixed = fix(name, bytes);
+    let fixed = fix(name, bytes).unwrap();
     assert!(errors(&fixed.left) <= errors(&found));
     for change in &fixed.changes {
         assert!(fixed.text().get(change.place.clone()).is_some(), "{change:?}");
     }
-    let again = fix(name, &fixed.to_bytes());
+    let again = fix(name, &fixed.to_bytes()).unwrap();
     assert!(again.changes.is_empty(), "{:?} in {:?}", again.changes, fixed.text());
     assert_eq!(again.to_bytes(), fixed.to_bytes());
 }
