@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use docs_gen::{Format, Options, Templates, context};
+use docs_gen::{Context, Format, Options, Templates, context};
 use minijinja::value::{Serde, Value};
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
@@ -104,46 +104,44 @@ fn has_words(text: &str, words: &str) -> bool {
     })
 }
 
-/// Names of the words of a language, and of those that documents show.
-struct Words {
-    known: BTreeSet<&'static str>,
-    shown: BTreeSet<&'static str>,
+/// The keys whose markers stand in a page.
+fn marked(page: &str) -> impl Iterator<Item = &str> {
+    page.split('\u{ab}').skip(1).filter_map(|rest| Some(rest.split_once('\u{bb}')?.0))
 }
 
-/// The words that the documents of a specification show.
-fn words(system: &System, language: &str) -> Words {
-    let options = Options { language: Some(language.to_owned()), ..Options::default() };
-    let mut context = context(system, &options);
-    let words = context.words.clone();
+/// Takes the words that the documents of a specification show out of these, by their keys.
+fn take_shown(missing: &mut BTreeMap<&'static str, &str>, mut context: Context) {
+    let markers: Vec<(&'static str, &'static str)> =
+        context.words.keys().map(|key| (*key, &*marker(key).leak())).collect();
     context.words = BTreeMap::new();
     // Words that the view itself brings stand in it as they are.
     let view = Value::from(Serde(&context)).to_string();
-    let in_view = |text: &str| text.split("{1}").all(|part| has_words(&view, part.trim()));
-    let mut shown: BTreeSet<&'static str> =
-        words.iter().filter(|(_, text)| in_view(text)).map(|(key, _)| *key).collect();
-    let markers: Vec<(&'static str, String)> = words.keys().map(|key| (*key, marker(key))).collect();
-    context.words = markers.iter().map(|(key, marker)| (*key, &*marker.clone().leak())).collect();
-    let pages = [Format::Markdown, Format::Html, Format::Print]
-        .into_iter()
-        .flat_map(|format| Templates::new(Some(format), &[]).unwrap().print(&context).unwrap());
-    for page in pages {
-        shown.extend(markers.iter().filter(|(_, marker)| page.text.contains(marker)).map(|(key, _)| *key));
+    missing.retain(|_, text| !text.split("{1}").all(|part| has_words(&view, part.trim())));
+    context.words = markers.into_iter().collect();
+    for format in [Format::Markdown, Format::Html, Format::Print] {
+        if missing.is_empty() {
+            return;
+        }
+        for page in Templates::new(Some(format), &[]).unwrap().print(&context).unwrap() {
+            for key in marked(&page.text) {
+                missing.remove(key);
+            }
+        }
     }
-    Words { known: words.into_keys().collect(), shown }
 }
 
 #[test]
 fn every_word_is_shown_in_every_language() {
     let systems = systems();
     for language in Language::ALL {
-        let mut missing: BTreeSet<&str> = BTreeSet::new();
-        let mut found: BTreeSet<&str> = BTreeSet::new();
-        for Specification { system, .. } in &systems {
-            let Words { known, shown } = words(system, language.code());
-            missing.extend(known);
-            found.extend(shown);
+        let options = Options { language: Some(language.code().to_owned()), ..Options::default() };
+        let contexts: Vec<_> = systems.iter().map(|one| context(&one.system, &options)).collect();
+        let mut missing: BTreeMap<&'static str, &str> =
+            contexts.iter().flat_map(|context| context.words.clone()).collect();
+        // The last are small; what they show need not be looked for in the others.
+        for context in contexts.into_iter().rev() {
+            take_shown(&mut missing, context);
         }
-        missing.retain(|word| !found.contains(word));
         assert!(missing.is_empty(), "no document shows these words in {language:?}: {missing:?}");
     }
 }
@@ -163,10 +161,19 @@ static BRACKETED: LazyLock<Texts> = LazyLock::new(|| {
 fn shown(page: &str) -> String {
     let mut text = page.to_owned();
     for (start, end) in [("<!--", "-->"), ("<style", "</style>"), ("<script", "</script>"), ("](", ")")] {
-        while let Some(at) = text.find(start) {
-            let length = text[at..].find(end).map_or(text.len() - at, |length| length + end.len());
-            text.replace_range(at..at + length, " ");
-        }
+        let mut parts = text.split(start);
+        let first = parts.next().unwrap_or_default().to_owned();
+        // A start within such a part belongs to it.
+        let mut is_inside = false;
+        text = parts.fold(first, |mut text, part| {
+            let begins = !is_inside;
+            let behind = part.split_once(end);
+            is_inside = behind.is_none();
+            if begins {
+                text.push(' ');
+            }
+            text + behind.map_or("", |(_, behind)| behind)
+        });
     }
     let mut shown = String::new();
     for piece in text.split('<') {

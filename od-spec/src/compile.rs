@@ -1,5 +1,7 @@
 //! The one entry point: text in, model and diagnostics out.
 
+use std::sync::Arc;
+
 use crate::Commissioning;
 use crate::ast::Spec;
 use crate::check;
@@ -12,7 +14,7 @@ use crate::eds::read::{Read, read};
 use crate::eds::view::{FileFacts, View};
 use crate::files::{self, Loader};
 use crate::keys;
-use crate::library::shipped::LIBRARIES;
+use crate::library::shipped::{LIBRARIES, keep, kept_as};
 use crate::model::System;
 use crate::parameters::{is_parameter_file, of_node};
 use crate::parts;
@@ -234,7 +236,6 @@ fn build(
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
     let Resolved { system, library } = resolve::resolve(&spec, &libraries, diagnostics);
-    standard::keep(sources, libraries);
     let mut allowed = Allowed::of(&spec, diagnostics);
     check::system(rules, &system, library.as_ref(), &mut allowed, diagnostics);
     let described = described(&spec, &system);
@@ -262,7 +263,7 @@ fn libraries(
     root: &Spec,
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
-) -> Option<Vec<Spec>> {
+) -> Option<Vec<Arc<Spec>>> {
     let (mut libraries, mut complete) = (Vec::new(), true);
     let from = sources.file(root.file).name().to_owned();
     let shown = root.shown_languages();
@@ -283,6 +284,13 @@ fn libraries(
                 }
             },
         };
+        if built_in.is_some()
+            && let Some(library) = kept_as(&name.value, id, &shown)
+        {
+            libraries.push(library);
+            continue;
+        }
+        let said = diagnostics.iter().count();
         let Some(mut library) = file(sources, id, &shown, loader, diagnostics) else {
             complete = false;
             continue;
@@ -300,6 +308,10 @@ fn libraries(
             continue;
         }
         resolve::expand(&mut library, diagnostics);
+        let library = Arc::new(library);
+        if built_in.is_some() && diagnostics.iter().count() == said {
+            keep(&name.value, &shown, &library);
+        }
         libraries.push(library);
     }
     complete.then_some(libraries)

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Use the generated documents like a reader: in Chromium, on paper, and through Asciidoctor.
 
-    run.py DOCS...
+    run.py [--sample] DOCS...
     run.py --install    only installs what npm brings
 
-DOCS are directories with HTML pages, `dump.json` and `context.json` (without these two, only the questions of `questions.json` are asked), or with `manual.adoc`, or with `hostile.json` and pages
-that hold its texts. Every HTML page is held against the HTML standard, and the search against how much it does at once. What npm brings is installed
+DOCS are directories with HTML pages, `dump.json` and `context.json` (without these two, only the questions of
+`questions.json` are asked), or with `manual.adoc`, or with `hostile.json` and pages that hold its texts. With --sample, axe
+looks at one of each kind of element, and questions and links take turns at the widths of a window. Every HTML page is held
+against the HTML standard, and the search against how much it does at once. What npm brings is installed
 below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program) and pdftotext of poppler-utils. Exit code
 0: the documents are as they must be; 1: they are not; 3: a program is missing or npm could not install, nothing was checked.
 """
@@ -24,7 +26,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 CACHE = HERE.parent.parent / "target" / "browser"
 FILES = ["package.json", "package-lock.json", ".npmrc"]
-SCRIPTS = ["check.mjs", "questions.mjs", "questions.json", "hostile.mjs", "asciidoc.mjs", "validate.mjs", "slices.mjs"]
+SCRIPTS = ["browser.mjs", "check.mjs", "questions.mjs", "questions.json", "hostile.mjs", "asciidoc.mjs", "validate.mjs", "slices.mjs"]
 SEARCH = HERE.parent.parent / "docs-gen" / "templates" / "html" / "_search.js"
 # Two cores are what a machine has at least.
 AT_ONCE = 2
@@ -81,7 +83,9 @@ def main() -> int:
     except Missing as error:
         print(f"error: {error}", file=sys.stderr)
         return 3
-    directories = [Path(argument).resolve() for argument in sys.argv[1:]]
+    is_sample = sys.argv[1:2] == ["--sample"]
+    amount = "sample" if is_sample else "all"
+    directories = [Path(argument).resolve() for argument in sys.argv[1 + is_sample :]]
     pages = [str(docs) for docs in directories if any(docs.rglob("*.html"))]
     asked = json.loads((HERE / "questions.json").read_text(encoding="utf-8"))
     work: list[tuple[str, list[str]]] = []
@@ -92,10 +96,10 @@ def main() -> int:
             work.append((docs.name, [node, str(folder / "hostile.mjs"), str(docs), browser]))
         else:
             if docs.name in asked:
-                work.append((f"{docs.name}: questions", [node, str(folder / "questions.mjs"), str(docs), browser]))
+                work.append((f"{docs.name}: questions", [node, str(folder / "questions.mjs"), str(docs), browser, amount]))
             if (docs / "dump.json").exists():
                 files = [docs, docs / "dump.json", docs / "context.json", CACHE / "seen" / docs.name]
-                work.append((docs.name, [node, str(folder / "check.mjs"), *map(str, files), browser]))
+                work.append((docs.name, [node, str(folder / "check.mjs"), *map(str, files), browser, amount]))
     work.append(("slices of the search", [node, str(folder / "slices.mjs"), str(SEARCH)]))
     if pages:
         work.append(("all pages", [node, str(folder / "validate.mjs"), *pages]))

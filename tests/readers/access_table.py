@@ -40,10 +40,10 @@ from access_rules import (
     is_command,
     shown,
 )
+from patience import eventually
 from sdo_client import NODE, read_in_blocks, write_in_blocks, write_in_segments
 from virtual_node import Served
 
-PATIENCE = 5.0
 LENGTHS = (1, 4, 5, 7, 8, 14, 15, 888, 889, 890, 1800)
 """Of DOMAINs: a frame, segments, a block of 127 segments and what is around it, several blocks."""
 
@@ -84,7 +84,6 @@ class Node:
     """The node, as one who tries things on it sees it."""
 
     def __init__(self, node: canopen.RemoteNode) -> None:
-        node.sdo.RESPONSE_TIMEOUT = PATIENCE
         self.sdo = node.sdo
         self.dictionary = node.object_dictionary
 
@@ -268,10 +267,8 @@ class Trial:
     def bring(self, served: Served, entry: Entry, data: bytes) -> None:
         """Makes the device itself put a value, and waits for it."""
         served.say(f"set {entry.index:04X}.{entry.sub}={entry.number(data)}")
-        deadline = time.monotonic() + PATIENCE
-        while self.node.read(entry.index, entry.sub) != data and time.monotonic() < deadline:
-            time.sleep(0.01)
-        self.table.add("(brought into a state)", entry.name, self.node.read(entry.index, entry.sub), data)
+        found = eventually(lambda: self.node.read(entry.index, entry.sub), data)
+        self.table.add("(brought into a state)", entry.name, found, data)
 
 
 def try_device(device: dict, types: list[dict], eds: Path, address: str | None, odgen: str, spec: Path) -> Table:

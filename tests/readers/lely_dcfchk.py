@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import os
+import io
 import re
-import subprocess
 import sys
 import tempfile
+import warnings
+from contextlib import redirect_stderr, redirect_stdout
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from dcf import cli
 from dcf.device import Device, Object, SubObject
 from dcf.lint import lint
 from dcf.parse import parse_file
@@ -71,17 +73,29 @@ def read_file(job: Job) -> Reading:
 
 
 def dcfchk(job: Job) -> list[str]:
-    """The command itself: silent and exit code 0, or a complaint."""
-    program = Path(sys.executable).with_name("dcfchk")
-    done = subprocess.run(
-        [program, "-n", str(job.node), job.path],
-        env={**os.environ, "PYTHONWARNINGS": "error::UserWarning"},
-        capture_output=True, text=True, check=False,
-    )
-    said = (done.stdout + done.stderr).strip()
-    if done.returncode == 0 and not said:
-        return []
-    return [f"dcfchk exit {done.returncode}: {said.splitlines()[-1] if said else 'no message'}"]
+    """What the command does, in this process: silent and exit code 0, or a complaint."""
+    said = io.StringIO()
+    with redirect_stdout(said), redirect_stderr(said), warnings.catch_warnings():
+        warnings.simplefilter("error", UserWarning)
+        try:
+            code = command(["-n", str(job.node), str(job.path)])
+        except Exception as error:  # it ends with a traceback
+            code = 1
+            print(f"{type(error).__name__}: {error}", file=said)
+    lines = said.getvalue().strip().splitlines()
+    return [f"dcfchk exit {code}: {lines[-1] if lines else 'no message'}"] if code or lines else []
+
+
+def command(arguments: list[str]) -> int:
+    """Runs dcfchk with these arguments; its exit code."""
+    before, sys.argv = sys.argv, ["dcfchk", *arguments]
+    try:
+        cli.main()
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else int(end.code is not None)
+    finally:
+        sys.argv = before
+    return 0
 
 
 def device_info(device: Device) -> dict[str, Any]:

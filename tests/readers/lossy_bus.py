@@ -12,7 +12,6 @@ by python-canopen, past the relay. Exit code 1 when anything else happens.
 from __future__ import annotations
 
 import argparse
-import queue
 import random
 import socket
 import subprocess
@@ -27,15 +26,14 @@ from pathlib import Path
 import can
 import canopen
 
+from patience import PATIENCE
 from sdo_client import NODE
 from virtual_node import Served
 
 KINDS = ("lost", "doubled", "swapped", "all of it")
 RATES = (0.0005, 0.002, 0.01)
-PATIENCE_MS = 60
-"""How long `odgen node` waits; the node answers within a millisecond."""
-HELD = 0.15
-"""So many seconds a frame is held back that no other one follows."""
+HURRY_MS = 250
+"""How long `odgen node` waits on a bad bus, where each frame that is lost takes so long; the node answers within a millisecond."""
 
 SPEC = """\
 od-spec: 1
@@ -98,6 +96,7 @@ class Relay:
     def __init__(self, port: int) -> None:
         self.behind = port
         self.fate = Fate("lost", 0, random.Random(0))
+        self.is_idle = threading.Event()
         self.server = socket.create_server(("127.0.0.1", 0))
         self.address = f"tcp:127.0.0.1:{self.server.getsockname()[1]}"
         threading.Thread(target=self.serve, daemon=True).start()
@@ -115,21 +114,13 @@ class Relay:
                 way.join()
             host.close()
             adapter.close()
+            self.is_idle.set()
 
     def pass_on(self, source: socket.socket, sink: socket.socket) -> None:
-        """Lines go on as they are; what are frames, as it is their fate."""
+        """Lines go on as they are; what are frames, as it is their fate. A frame that is held back follows the next one, or the end."""
         rest, held = b"", b""
         try:
-            while True:
-                source.settimeout(HELD if held else None)
-                try:
-                    data = source.recv(4096)
-                except TimeoutError:
-                    sink.sendall(held)
-                    held = b""
-                    continue
-                if not data:
-                    break
+            while data := source.recv(4096):
                 *lines, rest = (rest + data).split(b"\r")
                 for line in lines:
                     what = self.fate.of_next() if line.startswith(b"t") else "kept"
@@ -155,17 +146,20 @@ class Trial:
         self.network = canopen.Network(served.bus())
         self.network.notifier = can.Notifier(self.network.bus, self.network.listeners, 0.1)
         self.node = canopen.RemoteNode(NODE, str(folder / "made" / "eds" / "oven.eds"))
-        self.node.sdo.RESPONSE_TIMEOUT = 5.0
         self.network.add_node(self.node)
+        self.asked = 0
         self.outcomes: Counter[str] = Counter()
         self.failures: list[str] = []
 
     def hush(self) -> None:
-        """Waits until nothing of what others talked about comes any more, and forgets it."""
-        heard = -1
-        while heard != (heard := self.node.sdo.responses.qsize()):
-            time.sleep(0.02)
-        self.node.sdo.responses = queue.Queue()
+        """Forgets what others talked about. They have gone, so that nothing of it comes after the answer to a question that nobody else asks."""
+        self.asked += 1
+        question = b"\x40\xff\x5f" + bytes([self.asked % 256, 0, 0, 0, 0])
+        # What a transfer that was given up would take for its own.
+        self.network.send_message(0x600 + NODE, b"\x80" + bytes(7))
+        self.network.send_message(0x600 + NODE, question)
+        while self.node.sdo.responses.get(timeout=PATIENCE)[1:4] != question[1:4]:
+            pass
 
     def give(self, values: dict[Id, bytes]) -> None:
         self.hush()
@@ -176,19 +170,23 @@ class Trial:
         self.hush()
         return {id: self.node.sdo.upload(*id) for id in OLD}
 
-    def command(self, name: str, *arguments: str) -> subprocess.CompletedProcess[str]:
-        of_node = [str(self.spec), "--node", str(NODE), "--slcan", self.relay.address, "--timeout", str(PATIENCE_MS)]
+    def command(self, name: str, *arguments: str, within_ms: float = HURRY_MS) -> subprocess.CompletedProcess[str]:
+        """Runs a command, until nothing of it is under way any more."""
+        of_node = [str(self.spec), "--node", str(NODE), "--slcan", self.relay.address, "--timeout", str(int(within_ms))]
         whole = [self.odgen, "node", name, *of_node, *arguments]
-        return subprocess.run(whole, capture_output=True, text=True, check=False, timeout=60, cwd=self.folder)
+        self.relay.is_idle.clear()
+        done = subprocess.run(whole, capture_output=True, text=True, check=False, timeout=10 * PATIENCE, cwd=self.folder)
+        assert self.relay.is_idle.wait(PATIENCE), "the relay does not come to an end"
+        return done
 
     def good_bus(self) -> None:
         """What a backup and a restore are where nothing happens."""
         self.give(NEW)
-        done = self.command("backup", "--out", "new.yaml")
+        done = self.command("backup", "--out", "new.yaml", within_ms=1000 * PATIENCE)
         assert done.returncode == 0, done.stderr
         self.new = self.folder.joinpath("new.yaml").read_bytes()
         self.give(OLD)
-        done = self.command("backup", "--out", "old.yaml")
+        done = self.command("backup", "--out", "old.yaml", within_ms=1000 * PATIENCE)
         assert done.returncode == 0, done.stderr
         self.old = self.folder.joinpath("old.yaml").read_bytes()
 
@@ -216,9 +214,6 @@ class Trial:
 
     def restore(self, name: str) -> bool | None:
         finished = self.judge("restore", self.command("restore", "new.yaml"))
-        self.relay.fate.rate = 0
-        # What the relay holds back arrives before the node is asked.
-        time.sleep(HELD if finished is False else 0)
         has = self.has()
         if finished and has != NEW:
             self.failures.append(f"{name}: a restore that is said to have finished: {different(has, NEW)}")

@@ -21,6 +21,9 @@ from pathlib import Path
 from run import HERE, ROOT
 
 EVERY = 7
+# Of those, a sample that has faults of every kind: each so many, beginning so far behind the first, and what there is once only.
+SAMPLE, FIRST = 6, 4
+ONCE = re.compile(r"-(as-it-is|cp1252|utf-16)\.eds$")
 
 
 class File:
@@ -340,11 +343,13 @@ def contents() -> dict[str, bytes]:
     return files
 
 
-def write(folder: Path, every: int = EVERY) -> int:
-    """Writes one file of so many; how many there are."""
+def write(folder: Path, every: int = EVERY, sample: bool = False) -> int:
+    """Writes one file of so many, or a sample of them; how many there are."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     chosen = list(contents().items())[::every]
+    if sample:
+        chosen = [one for at, one in enumerate(chosen) if at % SAMPLE == FIRST or ONCE.search(one[0])]
     for name, content in chosen:
         (folder / name).write_bytes(content)
     return len(chosen)

@@ -42,7 +42,7 @@ socket.on('data', (bytes) => {
 
 async function read(index, subIndex) {
     try {
-        const data = await client.upload({ deviceId: device, index, subIndex, timeout: 5000 });
+        const data = await client.upload({ deviceId: device, index, subIndex, timeout: 60000 });
         return { index, sub: subIndex, data: data.toString('hex') };
     } catch (error) {
         return { index, sub: subIndex, abort: error.code, said: error.message };

@@ -23,6 +23,8 @@ import canopen
 from canopen.objectdictionary import INTEGER_TYPES, ODVariable
 from canopen.sdo.exceptions import SdoAbortedError
 
+from patience import PATIENCE, SCANS, eventually
+
 NODE = 5
 LINE = re.compile(r"^([0-9A-F]{4})h(?:\.(\d+))? .* {2}\[([0-9A-F ]*)\]$", re.MULTILINE)
 REFUSED = re.compile(r"cannot read ([0-9A-F]{4})h(?:\.(\d+))? .*: the node refuses: ([0-9A-F]{4}) ([0-9A-F]{4})h")
@@ -109,10 +111,10 @@ def main() -> int:
 
     def odgen(command: str, *arguments: str) -> subprocess.CompletedProcess[str]:
         whole = [options.odgen, "node", command, *arguments, "--slcan", adapter.address]
-        return subprocess.run(whole, capture_output=True, text=True, check=False, timeout=300)
+        return subprocess.run(whole, capture_output=True, text=True, check=False, timeout=10 * PATIENCE)
 
     def of_node(command: str, *arguments: str) -> subprocess.CompletedProcess[str]:
-        return odgen(command, options.spec, *arguments, "--device", options.device, "--node", str(NODE))
+        return odgen(command, options.spec, *arguments, "--device", options.device, "--node", str(NODE), "--timeout", str(int(1000 * PATIENCE)))
 
     entries: list[tuple[Id, ODVariable]] = []
     for index, one in node.object_dictionary.items():
@@ -161,12 +163,16 @@ def main() -> int:
             check.that(f"{at[0]:04X}h.{at[1]} is given back", value_of(node, *at), before[at])
         check.that("compare after all", of_node("compare", file).returncode, 0)
 
-    scanned = odgen("scan", options.spec, "--timeout", "200")
-    check.that("scan", scanned.stdout.splitlines()[0].split()[:2], ["node", str(NODE)])
+    # A scan waits for those who are not there, so it is short; a busy machine needs a longer one.
+    for milliseconds in SCANS:
+        scanned = odgen("scan", options.spec, "--timeout", str(milliseconds))
+        if scanned.stdout.startswith("node "):
+            break
+    check.that("scan", scanned.stdout.split()[:2], ["node", str(NODE)])
     check.that("scan knows the device", f"can be {options.device} " in scanned.stdout, True)
     for command, state in (("start", "OPERATIONAL"), ("stop", "STOPPED"), ("pre-operational", "PRE-OPERATIONAL")):
         check.that(command, odgen("nmt", command, "--node", "all").returncode, 0)
-        check.that(f"state after {command}", node.nmt.state, state)
+        check.that(f"state after {command}", eventually(lambda: node.nmt.state, state), state)
     for failure in check.failures[:20]:
         print(f"  {failure}")
     print(f"python-canopen as node of odgen, {options.device}: {len(entries)} entries, {len(differing)} given back")

@@ -21,6 +21,7 @@ from pathlib import Path
 import canopen
 
 from access_rules import default_of, entries_of, expected_of_reading, shown
+from patience import PATIENCE
 from sdo_client import NODE
 from virtual_node import Served
 
@@ -28,7 +29,7 @@ from virtual_node import Served
 def read_all(options: argparse.Namespace, served: Served, eds: Path) -> dict[tuple[int, int], bytes | int]:
     script = Path(__file__).with_name("node_canopen_reads.js")
     command = ["node", str(script), str(options.modules), str(eds), str(NODE), "127.0.0.1", str(served.port)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=10 * PATIENCE)
     if done.returncode or done.stderr:
         raise SystemExit(f"node-canopen: exit code {done.returncode}: {done.stderr}")
     found: dict[tuple[int, int], bytes | int] = {}

@@ -3,7 +3,7 @@
     readme_turbine.py --odgen FILE [--readme FILE] [--mend]
 
 The commands, the program for python-canopen and the screens are the README's own: what stands between its marks. Only the port is another
-one, that nothing else on this machine listens to. With `--mend` the README gets the screens of this run, to be read before they are kept.
+one, that `odgen serve` finds free, and the program has more patience with a busy machine. With `--mend` the README gets the screens of this run, to be read before they are kept.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ import argparse
 import os
 import re
 import shlex
-import socket
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
+from patience import PATIENCE
 from readme_plant import ROOT, between
 
 PORT = 3333
@@ -60,17 +60,23 @@ class Desk:
         self.folder.mkdir()
         for part in ("od-spec", "generated"):
             (self.folder / part).symlink_to(ROOT / part)
-        self.port = free_port()
-        programs = folder / "bin"
-        programs.mkdir()
-        at = f"tcp:127.0.0.1:{self.port}"
-        program(programs / "odgen", f'exec {shlex.quote(str(odgen))} "$@" --slcan {at}')
-        program(programs / "python3", f'exec {shlex.quote(sys.executable)} "$@"')
-        path = f"{programs}{os.pathsep}{os.environ.get('PATH', '')}"
-        self.environment = {**os.environ, "PATH": path, "PYTHONUNBUFFERED": "1"}
-        script = re.search(r"```python\n(.*?)```", between(readme, "turbine-python"), re.DOTALL)
-        assert script and "`blade_b.py`" in readme
-        self.folder.joinpath("blade_b.py").write_text(script[1].replace(str(PORT), str(self.port)), encoding="utf-8")
+        self.odgen = odgen
+        self.programs = folder / "bin"
+        self.programs.mkdir()
+        self.take_port(0)
+        program(self.programs / "python3", f'exec {shlex.quote(sys.executable)} "$@"')
+        path = f"{self.programs}{os.pathsep}{os.environ.get('PATH', '')}"
+        modules = str(Path(__file__).parent)
+        self.environment = {**os.environ, "PATH": path, "PYTHONUNBUFFERED": "1", "PYTHONPATH": modules}
+
+    def take_port(self, port: int) -> None:
+        """Lets the programs use a port, 0 one that is free."""
+        self.port = port
+        program(self.programs / "odgen", f'exec {shlex.quote(str(self.odgen))} "$@" --slcan tcp:127.0.0.1:{port}')
+        script = re.search(r"```python\n(.*?)```", between(self.readme, "turbine-python"), re.DOTALL)
+        assert script and "`blade_b.py`" in self.readme
+        text = f"import patience\n{script[1].replace(str(PORT), str(port))}"
+        self.folder.joinpath("blade_b.py").write_text(text, encoding="utf-8")
 
     def screens(self) -> dict[str, str]:
         """What a person sees, by the mark of the README."""
@@ -81,12 +87,13 @@ class Desk:
         assert serving.stdout
         try:
             line = serving.stdout.readline()
+            self.take_port(int(line.rsplit(":", 1)[1]))
             screens = {"turbine-serve": self.screen(command, line)}
             for mark in ("turbine-keep", "turbine-master"):
                 screens[mark] = "".join(self.screen(one, self.said(one)) for one in self.commands(mark))
         finally:
             serving.kill()
-            serving.wait(timeout=10)
+            serving.wait(timeout=PATIENCE)
         return screens
 
     def commands(self, mark: str) -> list[str]:
@@ -104,7 +111,7 @@ class Desk:
             stderr=subprocess.STDOUT,
             text=True,
             check=False,
-            timeout=120,
+            timeout=10 * PATIENCE,
         )
         return done.stdout
 
@@ -116,11 +123,6 @@ class Desk:
 def program(path: Path, text: str) -> None:
     path.write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
     path.chmod(0o755)
-
-
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        return server.getsockname()[1]
 
 
 if __name__ == "__main__":

@@ -19,6 +19,8 @@ from pathlib import Path
 import canopen
 from canopen.sdo import SdoAbortedError
 
+from patience import PATIENCE
+
 NODE = 5
 READ_ONLY, WRITE_ONLY, NO_DATA, LOCKED, NOT_STORED = 0x06010002, 0x06010001, 0x08000024, 0x08000022, 0x08000020
 IN_USE, TOO_LONG, NO_SUB_INDEX, NO_OBJECT = 0x06010000, 0x06070012, 0x06090011, 0x06020000
@@ -188,7 +190,7 @@ def check_device(server: str, eds: Path, device: dict, types: list[dict]) -> Che
     finally:
         assert network.process.stdin
         network.process.stdin.close()
-        network.process.wait(timeout=10)
+        network.process.wait(timeout=PATIENCE)
     return check
 
 

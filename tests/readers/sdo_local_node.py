@@ -18,6 +18,8 @@ from pathlib import Path
 import canopen
 from canopen.sdo.exceptions import SdoAbortedError
 
+from patience import PATIENCE
+
 NODE = 5
 STRINGS = (0x5F00, 0x5F01, 0x5F02)
 LENGTHS = (1, 2, 3, 4, 5, 6, 7, 8, 13, 14, 15, 100, 889, 890)
@@ -110,7 +112,7 @@ def main() -> int:
     that("write blocks 5fff.0 0102030405", f"refused {NO_OBJECT:08x}")
     assert client.process.stdin
     client.process.stdin.close()
-    client.process.wait(timeout=10)
+    client.process.wait(timeout=PATIENCE)
     for failure in failures[:20]:
         print(f"  {failure}")
     enough = len(entries) > 100

@@ -19,45 +19,61 @@ import can
 import canopen
 import serial
 
-NODE = 5
-
+from patience import PATIENCE, eventually
+from sdo_client import NODE, Check
+from virtual_node import reset
 
 def bus(port: str, bitrate: int | None) -> can.BusABC:
     return can.Bus(interface="slcan", channel=port, bitrate=bitrate, sleep_after_open=0)
 
 
-def check_node(port: str, eds: str, failures: list[str]) -> int:
-    """Reads, writes and commands a node; how much was right."""
+def check_node(check: Check, port: str, eds: str) -> None:
+    """Reads, writes and commands a node."""
     network = canopen.Network(bus(port, 500_000))
     try:
         network.notifier = can.Notifier(network.bus, network.listeners, 0.1)
         node = canopen.RemoteNode(NODE, eds)
         network.add_node(node)
-        done = 0
-        network.send_message(0, [0x81, NODE])
-        time.sleep(0.5)
+        reset(check, node)
         for index in (0x1000, 0x1001, 0x1017):
             if index in node.object_dictionary:
                 node.sdo[index].raw
-                done += 1
-        name = node.sdo.upload(0x1008, 0)
-        if not name:
-            failures.append("1008h is empty")
+        check.that("1008h is empty", not node.sdo.upload(0x1008, 0), False)
         node.sdo[0x1017].raw = 50
-        state = node.nmt.wait_for_heartbeat(timeout=5)
-        if state != "PRE-OPERATIONAL":
-            failures.append(f"state {state} in a heartbeat")
+        check.that("state in a heartbeat", node.nmt.wait_for_heartbeat(PATIENCE), "PRE-OPERATIONAL")
         node.nmt.state = "OPERATIONAL"
-        node.nmt.wait_for_heartbeat(timeout=5)
+        check.that("state then", eventually(lambda: node.nmt.wait_for_heartbeat(PATIENCE), "OPERATIONAL"), "OPERATIONAL")
         try:
             node.sdo.download(0x1000, 0, b"\0\0\0\0")
-            failures.append("1000h was written")
+            check.that("1000h was written", True, False)
         except canopen.SdoAbortedError as error:
-            if error.code != 0x06010002:
-                failures.append(f"1000h refused with {error.code:08X}")
-        return done + 4
+            check.that("1000h refused", error.code, 0x06010002)
     finally:
         network.disconnect()
+
+
+def be_rude(check: Check, port: str) -> None:
+    """Leaves half a line, an open channel, and frames that nobody reads."""
+    with serial.Serial(port, 115_200) as rude:
+        rude.write(b"C\rS6\rO\rt6058400018000000")
+        rude.flush()
+        # Its answers are three bytes, and behind them come heartbeats.
+        check.that("frames for a host", eventually(lambda: rude.in_waiting > 30, True), True)
+
+
+def check_plain(check: Check, port: str) -> None:
+    """A plain host: as soon as the one before is seen to have gone, its adapter was just switched on: half a line of nobody, a closed channel,
+    and no frame for others. What it says to each command then."""
+    fresh, end = b"\r\x07", time.monotonic() + PATIENCE
+    said = b""
+    while said != fresh and time.monotonic() < end:
+        with serial.Serial(port, 115_200, timeout=PATIENCE) as plain:
+            plain.write(b"\rt6050\r")
+            said = plain.read(len(fresh))
+            if said == fresh:
+                plain.write(b"V\rt6050\rO\rO\r")
+                check.that("a plain host", plain.read(9), b"V1010\r\x07\r\x07")
+    check.that("an adapter that was just switched on", said, fresh)
 
 
 def main() -> int:
@@ -65,7 +81,7 @@ def main() -> int:
     for option in ("odgen", "spec", "device", "eds"):
         parser.add_argument(f"--{option}", required=True)
     options = parser.parse_args()
-    failures: list[str] = []
+    check = Check()
     with tempfile.TemporaryDirectory() as folder:
         link = Path(folder) / "bus"
         node = f"{NODE}={options.device}"
@@ -74,34 +90,21 @@ def main() -> int:
         try:
             assert served.stdout
             port = served.stdout.readline().rsplit("serial:", 1)[1].strip()
-            if port != str(link):
-                failures.append(f"the port is {port}")
-            done = check_node(port, options.eds, failures)
-            # Half a line, an open channel, frames that nobody reads.
-            with serial.Serial(port, 115_200, timeout=1) as rude:
-                rude.write(b"C\rS6\rO\rt6058400018000000")
-                rude.flush()
-                time.sleep(0.3)
-            time.sleep(0.3)
-            done += check_node(port, options.eds, failures)
-            time.sleep(0.3)
-            # A plain host: what the adapter says to each command, and nothing that was for others.
-            with serial.Serial(port, 115_200, timeout=2) as plain:
-                plain.write(b"V\rt6050\rO\rO\r")
-                said = plain.read(9)
-                if said != b"V1010\r\x07\r\x07":
-                    failures.append(f"a plain host is told {said!r}")
-                done += 1
+            check.that("the port", port, str(link))
+            check_node(check, port, options.eds)
+            be_rude(check, port)
+            check_plain(check, port)
+            check_node(check, port, options.eds)
+            check_plain(check, port)
         finally:
             served.terminate()
-            code = served.wait(timeout=10)
-        if code != 0 or link.is_symlink():
-            failures.append(f"the end: exit code {code}, link {'left' if link.is_symlink() else 'gone'}")
-    for failure in failures:
+            code = served.wait(timeout=PATIENCE)
+        check.that("the end: exit code, and whether the link is left", (code, link.is_symlink()), (0, False))
+    for failure in check.failures:
         print(f"  {failure}")
-    verdict = "ok" if not failures else f"{len(failures)} differences"
-    print(f"python-can at the serial port of {options.device}: {done} checks, {verdict}")
-    return 1 if failures else 0
+    verdict = "ok" if not check.failures else f"{len(check.failures)} differences"
+    print(f"python-can at the serial port of {options.device}: {check.done} checks, {verdict}")
+    return 1 if check.failures else 0
 
 
 if __name__ == "__main__":

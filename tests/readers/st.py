@@ -3,7 +3,8 @@
 
     st.py --odgen target/debug/odgen --frames target/debug/pdo-frames od-spec/devices/pitch-control-system.od.yaml ...
 
-Every file is parsed without a remark, in every language. Each constant and each value of an enum is one of the dump, and none of those is missing.
+Every file is parsed without a remark, in every language; with `--sample`, of lists of constants one group of some, and the others, where all
+values are plain numbers, are read by their lines, as those of the sample are, too, with the same outcome; and one planted fault of some. Each constant and each value of an enum is one of the dump, and none of those is missing.
 Functions and function blocks run in a controller of our own over blark's tree (st_machine.py): conversions at the limits, at special
 values, between steps and anywhere, with every way in which tools round, against the exact fractions; bits, states and commands against
 masks and patterns; PDOs against the mapping, and against frames that the generated Rust has packed. In the end faults are planted
@@ -35,6 +36,7 @@ NODE = 5
 LIMIT = 40  # differences that are shown
 LEAST_CHECKS, LEAST_FAULTS = 2000, 4  # of a device; with fewer, something was left out
 LONGEST = 120
+SAMPLE = 6  # with `--sample`, one of so many groups of constants and of faults
 # Where an item of a file ends; a list of constants is one.
 LIST = "VAR_GLOBAL CONSTANT\n"
 END = re.compile(r"(?<=^END_FUNCTION\n)|(?<=^END_FUNCTION_BLOCK\n)|(?<=^END_TYPE\n)", re.MULTILINE)
@@ -114,27 +116,37 @@ def items_of(text: str) -> list[str]:
     return [item for item in items if re.search(r"^[A-Z]", item, re.MULTILINE)]
 
 
-def constants_of(items: Iterable[Any]) -> tuple[list[str], dict[str, tuple[str, Any]]]:
-    """Names in their order, and type and value of each constant."""
-    names, found = [], {}
+LINE = re.compile(r"(\w+) : (\w+) := (16#[0-9A-F]+|-?[0-9]+);( \(\*.*\*\))?")
+
+
+def lines_of(group: str) -> list[tuple[str, str, int]] | None:
+    """Name, type and value of each constant of a group, by its lines; none if they are not all plain numbers."""
+    lines = re.sub(r"(?m)^ *\(\*.*?\*\)$", "", group.removeprefix(LIST).removesuffix("\nEND_VAR\n"), flags=re.DOTALL).split("\n")
+    found = [LINE.fullmatch(line.strip()) for line in lines if line.strip()]
+    if None in found:
+        return None
+    return [(one[1], one[2], int(one[3].removeprefix("16#"), 16 if "#" in one[3] else 10)) for one in found]
+
+
+def constants_of(items: Iterable[Any]) -> list[tuple[str, tuple[str, Any]]]:
+    """Name, type and value of each constant."""
+    found = []
     controller = Controller([])
     for block in items:
         assert isinstance(block, tree.GlobalVariableDeclarations) and text_of(block.attrs).strip().upper().endswith("CONSTANT"), block
         for declaration in block.items:
             for variable in declaration.spec.variables:
-                name = text_of(variable)
                 init = declaration.init
-                of_type = text_of(init.spec.type)
-                names.append(name)
-                found[name.upper()] = (of_type, controller.literal(init.value))
-    return names, found
+                found.append((text_of(variable), (text_of(init.spec.type), controller.literal(init.value))))
+    return found
 
 
 class Parsed:
-    """What blark has made of pieces, each once."""
+    """What blark has made of pieces, each once. Of groups of constants and of planted faults one of so many is taken."""
 
-    def __init__(self, pool: ProcessPoolExecutor) -> None:
+    def __init__(self, pool: ProcessPoolExecutor, every: int) -> None:
         self.pool = pool
+        self.every = every
         self.known: dict[str, tuple[str | None, list[Any]]] = {}
 
     def all(self, parts: list[str]) -> list[tuple[str | None, list[Any]]]:
@@ -147,20 +159,37 @@ class Files:
     """What one run of `odgen st` made of a device, parsed."""
 
     def __init__(self, check: Check, where: str, texts: dict[str, str], parsed: Parsed) -> None:
-        self.constant_names, self.constants = [], {}
+        self.constant_names: list[str] = []
+        self.constants: dict[str, tuple[str, Any]] = {}
         code = []
         for name, text in texts.items():
             parts = items_of(text)
-            items = []
+            is_list = name.endswith("-constants.st")
+            items, plain = [], {}
+            if is_list and parsed.every > 1:
+                plain = {part: of_lines for part in parts if (of_lines := lines_of(part)) is not None}
+                unread = [part for at, part in enumerate(parts) if at % parsed.every and part in plain]
+                parts = [part for part in parts if part not in unread]
+                for part in unread:
+                    self.take((name, (of_type, value)) for name, of_type, value in plain[part])
             for part, (wrong, of_part) in zip(parts, parsed.all(parts)):
                 check.that(wrong is None, f"{where} {name}: blark refuses {wrong}\n{part[:400]}")
                 items += of_part
-            if name.endswith("-constants.st"):
-                self.constant_names, self.constants = constants_of(items)
+                if part in plain and wrong is None:
+                    of_blark = [(name.upper(), *found) for name, found in constants_of(of_part)]
+                    of_lines = [(name.upper(), of_type, value) for name, of_type, value in plain[part]]
+                    check.that(of_lines == of_blark, f"{where} {name}: by lines {of_lines}, by blark {of_blark}")
+            if is_list:
+                self.take(constants_of(items))
             else:
                 code += items
         self.controller = Controller(code)
         self.names = self.constant_names + self.controller.names
+
+    def take(self, constants: Iterable[tuple[str, tuple[str, Any]]]) -> None:
+        for name, found in constants:
+            self.constant_names.append(name)
+            self.constants[name.upper()] = found
 
 
 def check_names(check: Check, where: str, files: Files, texts: dict[str, str]) -> None:
@@ -283,7 +312,8 @@ def check_faults(check: Check, odgen: Path, spec: Path, device: Device, parsed: 
     with tempfile.TemporaryDirectory() as folder:
         run(odgen, "st", spec, "--node", NODE, "--out", folder)
         texts = texts_in(Path(folder), device.key)
-    for name, old, new in [(f"{device.key}.st", "", ""), *FAULTS[device.key]]:
+    faults = FAULTS[device.key][:: parsed.every]
+    for name, old, new in [(f"{device.key}.st", "", ""), *faults]:
         check.that(old in texts[name], f"{name} has no {old!r}")
         changed = dict(texts, **{name: texts[name].replace(old, new)}) if old else texts
         of_fault = Check()
@@ -292,7 +322,7 @@ def check_faults(check: Check, odgen: Path, spec: Path, device: Device, parsed: 
         except (Fault, KeyError, AssertionError, StopIteration) as fault:
             of_fault.that(False, repr(fault))
         check.that(bool(of_fault.wrong) == bool(old), f"{new!r} in place of {old!r}: {of_fault.wrong[:3]}")
-    return len(FAULTS[device.key])
+    return len(faults)
 
 
 def main() -> int:
@@ -301,6 +331,7 @@ def main() -> int:
     parser.add_argument("--frames", type=Path, required=True, help="pdo-frames of the tests")
     parser.add_argument("--as-it-is", type=Path, action="append", default=[], help="a specification of which there is no Rust")
     parser.add_argument("--faults", type=Path, action="append", default=[], help="a specification into whose files faults are planted")
+    parser.add_argument("--sample", action="store_true", help="most constants are not parsed by blark, and most faults not planted")
     parser.add_argument("specs", type=Path, nargs="*")
     arguments = parser.parse_args()
     is_right = True
@@ -317,7 +348,7 @@ def main() -> int:
         for spec in [*arguments.specs, *arguments.as_it_is, *arguments.faults]:
             dump = json.loads(run(arguments.odgen, "dump", spec))
             for one in dump["devices"]:
-                device, check, parsed = Device(dump, one), Check(), Parsed(pool)
+                device, check, parsed = Device(dump, one), Check(), Parsed(pool, SAMPLE if arguments.sample else 1)
                 frames = 0
                 try:
                     check_spec(check, arguments.odgen, spec, device, parsed)

@@ -15,13 +15,13 @@ import argparse
 import json
 import subprocess
 import sys
-import threading
 import time
 from pathlib import Path
 
 import can
 import canopen
 
+from patience import PATIENCE, Heard, settle
 from sdo_client import NODE, NOT_STORED, Check, begin, check_dictionary, code_of
 
 SAVE = b"save"
@@ -67,21 +67,15 @@ class Served(Reached):
 
     def end(self) -> None:
         self.process.kill()
-        self.process.wait(timeout=10)
+        self.process.wait(timeout=PATIENCE)
 
 
 def reset(check: Check, node: canopen.RemoteNode, command: int = 0x81) -> None:
     """Resets the node or its communication, and waits for its boot-up message, which is there before anybody could begin to wait for it."""
-    booted = threading.Event()
-
-    def hear(_: int, data: bytearray, __: float) -> None:
-        if bytes(data) == b"\0":
-            booted.set()
-
-    node.network.subscribe(0x700 + NODE, hear)
+    heard = Heard(node.network, 0x700 + NODE)
     node.nmt.send_command(command)
-    check.that("boot-up message", booted.wait(5), True)
-    node.network.unsubscribe(0x700 + NODE, hear)
+    check.that("boot-up message", heard.until(b"\0"), b"\0")
+    node.network.unsubscribe(0x700 + NODE, heard.hear)
 
 
 def check_states(check: Check, node: canopen.RemoteNode) -> None:
@@ -89,22 +83,29 @@ def check_states(check: Check, node: canopen.RemoteNode) -> None:
     reset(check, node)
     period = node.sdo.upload(0x1017, 0)
     node.sdo.download(0x1017, 0, (30).to_bytes(2, "little"))
+    heard = Heard(node.network, 0x700 + NODE)
     for command, state in (("OPERATIONAL", 5), ("STOPPED", 4), ("PRE-OPERATIONAL", 127)):
         node.nmt.state = command
-        time.sleep(0.05)
-        node.nmt.wait_for_heartbeat(5)
-        check.that(f"state {state}", node.nmt._state, state)
+        # Heartbeats from before the command may be on their way; behind the first one of the state is no other.
+        check.that(f"state {state}", (heard.until(bytes([state])), heard.next()), (bytes([state]), bytes([state])))
+        check.that(f"state {state} as the client shows it", node.nmt._state, state)
         if state == 4:
-            check.that("SDO while stopped", silent(node), True)
+            check.that("SDO while stopped", is_silent(node), True)
     node.sdo.download(0x1017, 0, period)
+    node.network.unsubscribe(0x700 + NODE, heard.hear)
 
 
-def silent(node: canopen.RemoteNode) -> bool:
-    try:
-        node.sdo.upload(0x1000, 0)
-    except canopen.sdo.SdoCommunicationError:
-        return True
-    return False
+def is_silent(node: canopen.RemoteNode) -> bool:
+    """Whether a stopped node answers nothing: its first answer is for what it is asked when it is not stopped any more."""
+    node.network.send_message(0x600 + NODE, upload_of(0x1001))
+    node.nmt.send_command(0x80)
+    node.network.send_message(0x600 + NODE, upload_of(0x1000))
+    return node.sdo.read_response()[1:4] == upload_of(0x1000)[1:4]
+
+
+def upload_of(index: int) -> bytes:
+    """The frame that asks for an entry with sub-index 0."""
+    return b"\x40" + index.to_bytes(2, "little") + bytes(5)
 
 
 def check_blocks(check: Check, node: canopen.RemoteNode, device: dict) -> None:
@@ -165,17 +166,27 @@ def check_reset(check: Check, node: canopen.RemoteNode, device: dict) -> None:
 
 def check_second(check: Check, served: Served, node: canopen.RemoteNode) -> None:
     """Another client sees what this one sends, and what the node answers; it guards the node."""
+    # The end of a block has no answer, and what another client sends could overtake it.
+    settle(node)
     with served.bus() as other:
-        time.sleep(0.1)
+        # An answer to the second client says that it is there; the first one gets it, too.
+        other.send(can.Message(arbitration_id=0x600 + NODE, data=upload_of(0x1000), is_extended_id=False))
+        seen_until(other, 0x580 + NODE)
+        node.sdo.read_response()
         node.sdo.download(0x1017, 0, b"\0\0")
-        seen: list[int] = []
-        while (message := other.recv(0.3)) is not None:
-            seen.append(message.arbitration_id)
-        check.that("what a second client sees", [0x600 + NODE, 0x580 + NODE] == seen[-2:], True)
+        check.that("what a second client sees", seen_until(other, 0x580 + NODE)[-2:], [0x600 + NODE, 0x580 + NODE])
         for toggle in (0, 0x80, 0):
             other.send(can.Message(arbitration_id=0x700 + NODE, is_remote_frame=True, dlc=1, is_extended_id=False))
-            answer = other.recv(2)
+            answer = other.recv(PATIENCE)
             check.that("node guarding", bytes(answer.data) if answer else None, bytes([toggle | 127]))
+
+
+def seen_until(bus: can.BusABC, identifier: int) -> list[int]:
+    """The identifiers on a bus up to one."""
+    seen: list[int] = []
+    while seen[-1:] != [identifier] and (message := bus.recv(PATIENCE)) is not None:
+        seen.append(message.arbitration_id)
+    return seen
 
 
 def check_device(served: Reached, eds: Path, device: dict, types: list[dict]) -> Check:

@@ -15,14 +15,13 @@ import json
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 from pathlib import Path
 
 import can
 import canopen
-from canopen.lss import LssError
 
+from patience import Heard, eventually, settle
 from sdo_client import IN_USE, NODE, Check, code_of
 from virtual_node import Served, reset
 
@@ -48,25 +47,6 @@ def candidates(device: dict, types: dict[str, dict], direction: str) -> list[tup
     return found[:2]
 
 
-class Heard:
-    """Frames with an identifier, as they come."""
-
-    def __init__(self, network: canopen.Network, cob_id: int) -> None:
-        self.frames: list[bytes] = []
-        self.came = threading.Condition()
-        network.subscribe(cob_id, self.hear)
-
-    def hear(self, _: int, data: bytearray, __: float) -> None:
-        with self.came:
-            self.frames.append(bytes(data))
-            self.came.notify_all()
-
-    def next(self, timeout: float = 3.0) -> bytes | None:
-        with self.came:
-            self.came.wait_for(lambda: self.frames, timeout)
-            return self.frames.pop(0) if self.frames else None
-
-
 def remap(pdo: canopen.pdo.PdoMap, entries: list[tuple[int, int, int, bool]], cob_id: int, transmission: int) -> None:
     """Maps entries by the procedure of CiA 301: switch off, no entries, the entries, their number, switch on."""
     pdo.read()
@@ -90,22 +70,22 @@ def check_transmit(check: Check, served: Served, network: canopen.Network, node:
     heard = Heard(network, TRANSMIT)
     index, sub, *_ = entries[0]
     served.say(f"set {index:04X}.{sub}=11")
-    check.that("a TPDO before start", heard.next(0.2), None)
+    # Standard input and the bus do not wait for each other; answers say what the node has done.
+    check.that("what is set before start", eventually(lambda: read_all(node, entries[:1]), [11]), [11])
+    settle(node)
+    check.that("TPDOs before start", heard.now(), [])
     node.nmt.state = "OPERATIONAL"
-    # Standard input and the bus do not wait for each other; an answer says that the node has started.
-    node.sdo.upload(0x1000, 0)
+    settle(node)
     values = [11] + [3 + at for at in range(1, len(entries))]
     for (index, sub, *_), value in list(zip(entries, values, strict=True))[1:]:
         served.say(f"set {index:04X}.{sub}={value}")
     if len(entries) == 1:
         values = [12]
         served.say(f"set {index:04X}.{sub}=12")
-    last = None
-    while (frame := heard.next(0.5)) is not None:
-        last = frame
-    check.that("the TPDO of an event", last, packed(entries, values))
-    read = [int.from_bytes(node.sdo.upload(index, sub), "little") for index, sub, *_ in entries]
-    check.that("what it tells by SDO", read, values)
+    check.that("the TPDO of an event", heard.until(packed(entries, values)), packed(entries, values))
+    check.that("what it tells by SDO", read_all(node, entries), values)
+    settle(node)
+    check.that("TPDOs of other values behind it", set(heard.now()) - {packed(entries, values)}, set())
     node.nmt.state = "PRE-OPERATIONAL"
     if code_of(node.sdo.upload, 0x1005, 0) == 0x06020000:
         return
@@ -118,10 +98,15 @@ def check_transmit(check: Check, served: Served, network: canopen.Network, node:
     start = node.sdo.upload(0x1801, 6)[0] if has_counter else None
     for counter in (start - 1, start) if has_counter else (None,):
         network.sync.transmit(counter)
-    check.that("the first SYNC of two", by_sync.next(0.3), None)
+    settle(node)
+    check.that("the first SYNC of two", by_sync.now(), [])
     network.sync.transmit(start + 1 if has_counter else None)
     check.that("the second SYNC", by_sync.next(), packed(entries, values))
     node.nmt.state = "PRE-OPERATIONAL"
+
+
+def read_all(node: canopen.RemoteNode, entries: list) -> list[int]:
+    return [int.from_bytes(node.sdo.upload(index, sub), "little") for index, sub, *_ in entries]
 
 
 def check_receive(check: Check, node: canopen.RemoteNode, entries: list) -> None:
@@ -155,16 +140,18 @@ def check_emergencies(check: Check, served: Served, network: canopen.Network, no
     check.that("the error register then", node.sdo.upload(0x1001, 0), b"\0")
 
 
-def check_lss(check: Check, network: canopen.Network, device: dict) -> None:
+def check_lss(check: Check, network: canopen.Network, node: canopen.RemoteNode, device: dict) -> None:
     """A device with LSS tells its node-ID, and one without says nothing."""
-    network.lss.RESPONSE_TIMEOUT = 1.0 if device["lss"] else 0.3
-    network.lss.send_switch_state_global(network.lss.CONFIGURATION_STATE)
-    try:
-        found = network.lss.inquire_node_id()
-    except LssError:
-        found = None
-    check.that("LSS", found, NODE if device["lss"] else None)
-    network.lss.send_switch_state_global(network.lss.WAITING_STATE)
+    lss = network.lss
+    lss.send_switch_state_global(lss.CONFIGURATION_STATE)
+    if device["lss"]:
+        check.that("LSS", lss.inquire_node_id(), NODE)
+    else:
+        heard = Heard(network, lss.LSS_RX_COBID)
+        network.send_message(lss.LSS_TX_COBID, b"\x5e" + bytes(7))
+        settle(node)
+        check.that("LSS", heard.now(), [])
+    lss.send_switch_state_global(lss.WAITING_STATE)
 
 
 def check_device(odgen: str, spec: Path, eds: Path, device: dict, types: dict[str, dict]) -> Check:
@@ -176,7 +163,7 @@ def check_device(odgen: str, spec: Path, eds: Path, device: dict, types: dict[st
         node = canopen.RemoteNode(NODE, str(eds))
         network.add_node(node)
         reset(check, node)
-        check_lss(check, network, device)
+        check_lss(check, network, node, device)
         check_transmit(check, served, network, node, candidates(device, types, "transmit"))
         check_receive(check, node, candidates(device, types, "receive"))
         check_emergencies(check, served, network, node)

@@ -3,25 +3,28 @@
 pub mod access_cases;
 pub mod c_dictionary;
 pub mod compiler;
+pub mod documents;
 pub mod editor;
 pub mod foreign;
 pub mod fuzz;
 pub mod generate;
+pub mod memo;
 pub mod patterns;
 pub mod plant;
 
 #[path = "../shared/shipped.rs"]
 pub mod shipped;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::Arc;
 
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Severity};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, Loader, compile, rule_codes};
+
+use memo::Memo;
 
 /// Why a task failed.
 pub type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -56,19 +59,9 @@ pub fn is_said_by_manuals(diagnostic: &Diagnostic) -> bool {
 ///
 /// # Errors
 /// The file cannot be read, or the compiler has more to say than notes.
-pub fn compile_clean(path: &str) -> Result<System, Failure> {
-    /// What was compiled already, by path and text: many tests of one program look at the shipped devices.
-    static COMPILED: Mutex<BTreeMap<(String, String), System>> = Mutex::new(BTreeMap::new());
-    let key = (path.to_owned(), read(path)?);
-    let known = COMPILED.lock().ok().and_then(|compiled| compiled.get(&key).cloned());
-    if let Some(system) = known {
-        return Ok(system);
-    }
-    let (system, _) = compile_with_sources(path)?;
-    if let Ok(mut compiled) = COMPILED.lock() {
-        compiled.insert(key, system.clone());
-    }
-    Ok(system)
+pub fn compile_clean(path: &str) -> Result<Arc<System>, Failure> {
+    static COMPILED: Memo<String, Arc<System>> = Memo::empty();
+    COMPILED.get(path.to_owned(), || Ok(Arc::new(compile_with_sources(path)?.0))).cloned()
 }
 
 fn read(path: &str) -> Result<String, Failure> {

@@ -54,35 +54,26 @@ class Board:
     """The emulated board with the firmware: its UART is a TCP server."""
 
     def __init__(self, program: Path, port: int = 0) -> None:
-        if not port:
-            with socket.socket() as free:
-                free.bind((HOST, 0))
-                port = free.getsockname()[1]
-        self.address = f"{HOST}:{port}"
-        # Without `nodelay`, each answer waits for the acknowledgement of the one before.
-        serial = ["-serial", f"tcp:{self.address},server=on,wait=off,nodelay=on"]
-        command = [run.QEMU, *BOARD, *serial, "-kernel", str(program)]
-        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL)
-        until = time.monotonic() + 20
-        while True:
-            try:
-                socket.create_connection((HOST, port)).close()
-                return
-            except OSError as error:
-                if self.process.poll() is not None or time.monotonic() > until:
-                    self.end()
-                    raise run.Failed(f"{run.QEMU} does not listen at {self.address}: {error}") from error
-                time.sleep(0.05)
+        # A socket of ours, which is listened to before the emulator is there: whoever connects waits for it.
+        with socket.create_server((HOST, port)) as server:
+            # Without it, each answer waits for the acknowledgement of the one before. Connections have it from here.
+            server.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            self.address = f"{HOST}:{server.getsockname()[1]}"
+            uart = ["-chardev", f"socket,id=uart,fd={server.fileno()},server=on,wait=off", "-serial", "chardev:uart"]
+            command = [run.QEMU, *BOARD, *uart, "-kernel", str(program)]
+            self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=[server.fileno()])
 
     def raw(self) -> socket.socket:
+        from patience import PATIENCE
+
         host, port = self.address.split(":")
-        connection = socket.create_connection((host, int(port)), timeout=5)
+        connection = socket.create_connection((host, int(port)), timeout=PATIENCE)
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         return connection
 
     def end(self) -> None:
         self.process.kill()
-        self.process.wait(timeout=10)
+        self.process.wait()
 
 
 def main() -> int:
@@ -206,21 +197,26 @@ def check(program: Path, others: dict[str, Path], odgen: Path | None) -> int:
 
 def check_odgen(odgen: Path, address: str) -> tuple[int, list[str]]:
     """Finds the node, backs it up, changes it, compares, restores; how many checks, and what was wrong."""
+    from patience import PATIENCE, SCANS
+
     failures, done = [], 0
 
-    def expect(code: int, pattern: str, *command: str) -> None:
+    def expect(code: int, pattern: str, *command: str, timeouts: tuple[int, ...] = (int(1000 * PATIENCE),)) -> None:
         nonlocal done
         done += 1
-        whole = [str(odgen), "node", *command, "--slcan", address]
-        said = subprocess.run(whole, capture_output=True, text=True, check=False, timeout=120)
-        text = said.stdout + said.stderr
+        for milliseconds in timeouts:
+            whole = [str(odgen), "node", *command, "--slcan", address, "--timeout", str(milliseconds)]
+            said = subprocess.run(whole, capture_output=True, text=True, check=False, timeout=10 * PATIENCE)
+            text = said.stdout + said.stderr
+            if re.search(pattern, text):
+                break
         if said.returncode != code or not re.search(pattern, text):
             failures.append(f"{' '.join(whole)}: ended with {said.returncode} and {text[-300:]!r}, expected {code} and {pattern!r}")
 
     spec, of_node = str(SPECIFICATION), ("--device", DEVICE, "--node", "5")
     with tempfile.TemporaryDirectory() as folder:
         file = str(Path(folder, "pmc-5.yaml"))
-        expect(0, rf"can be {DEVICE} ", "scan", spec, "--timeout", "200")
+        expect(0, rf"can be {DEVICE} ", "scan", spec, timeouts=SCANS)
         expect(0, "", "backup", spec, "--out", file, *of_node)
         expect(0, "", "compare", spec, file, *of_node)
         expect(0, "", "write", spec, "EFC target position=88.00 °", *of_node)

@@ -2,7 +2,7 @@
 """Build firmware for thumbv7em-none-eabi, print how large it is, run it in QEMU.
 
     run.py sizes [NAME ...]                  Markdown tables of all programs in firmware/src/size
-    run.py test [--timeout 30] [NAME ...]    run all programs in firmware/src/test
+    run.py test [--timeout 600] [NAME ...]   run all programs in firmware/src/test
 
 A NAME picks a program from either folder. Nothing is skipped: what is missing on the machine is named.
 
@@ -122,7 +122,7 @@ def main() -> int:
     commands = parser.add_subparsers(dest="command", required=True)
     sizes = commands.add_parser("sizes", help="print the sizes of the programs' sections")
     test = commands.add_parser("test", help="run programs in QEMU")
-    test.add_argument("--timeout", type=float, default=30, help="seconds for one program")
+    test.add_argument("--timeout", type=float, default=600, help="seconds for one program")
     for command in (sizes, test):
         command.add_argument("names", nargs="*", metavar="NAME")
     options = parser.parse_args()

@@ -18,7 +18,7 @@ use minijinja::{Environment, UndefinedBehavior, context};
 use crate::view::Context;
 
 /// A format that this crate has templates for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Format {
     /// Markdown: a page per chapter, device and appendix, and an index.
     Markdown,

@@ -2,6 +2,7 @@
 
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::scope::unknown;
 use crate::ast::{Axes, EntryDecl, ErrorDecl, FeatureDecl, MachineDecl, Name, ObjectDecl, Spec};
@@ -21,11 +22,11 @@ pub(super) struct Libraries<'a> {
     errors: OnceCell<BTreeMap<(FileId, u16), &'a ErrorDecl>>,
     /// The names of features by each of their words, in small letters.
     by_word: OnceCell<BTreeMap<String, Vec<&'a str>>>,
-    all: &'a [Spec],
+    all: &'a [Arc<Spec>],
 }
 
 impl<'a> Libraries<'a> {
-    pub(super) fn of(all: &'a [Spec]) -> Self {
+    pub(super) fn of(all: &'a [Arc<Spec>]) -> Self {
         let mut libraries = Self {
             by_name: BTreeMap::new(),
             objects: BTreeMap::new(),

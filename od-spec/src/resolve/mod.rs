@@ -40,6 +40,8 @@ mod types;
 pub(crate) mod values;
 mod varied;
 
+use std::sync::Arc;
+
 use crate::ast::{FrontEnd, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Dictionary, Document, System, SystemSource, Vendor};
@@ -63,7 +65,11 @@ pub(crate) struct Resolved {
 
 /// Builds the model from a specification and the libraries it uses. Mistakes go to `diagnostics`; with an error
 /// among them the model is incomplete and must not be used.
-pub(crate) fn resolve<'a>(root: &'a Spec, libraries: &'a [Spec], diagnostics: &mut Diagnostics) -> Resolved {
+pub(crate) fn resolve<'a>(
+    root: &'a Spec,
+    libraries: &'a [Arc<Spec>],
+    diagnostics: &mut Diagnostics,
+) -> Resolved {
     keys_have_effect::check(root, diagnostics);
     let scope = Scope::new(root, libraries, diagnostics);
     let languages = match root.languages.as_slice() {

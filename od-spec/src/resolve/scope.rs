@@ -22,7 +22,7 @@ pub(super) struct Scope {
 }
 
 impl Scope {
-    pub(super) fn new(root: &Spec, libraries: &[Spec], diagnostics: &mut Diagnostics) -> Self {
+    pub(super) fn new(root: &Spec, libraries: &[Arc<Spec>], diagnostics: &mut Diagnostics) -> Self {
         let mut scope = Self {
             units: BTreeMap::new(),
             types: BTreeMap::new(),
@@ -30,7 +30,7 @@ impl Scope {
             symbols: BTreeMap::new(),
         };
         let mut places: BTreeMap<String, Span> = BTreeMap::new();
-        for spec in libraries.iter().chain([root]) {
+        for spec in libraries.iter().map(Arc::as_ref).chain([root]) {
             for decl in &spec.units {
                 match unit(decl, root.file) {
                     Some(unit) => {
@@ -50,7 +50,7 @@ impl Scope {
             scope.symbols.entry(unit.symbol.clone()).or_insert_with(|| Arc::clone(unit));
         }
         places.clear();
-        for spec in libraries.iter().chain([root]) {
+        for spec in libraries.iter().map(Arc::as_ref).chain([root]) {
             for decl in &spec.types {
                 match types::resolve(decl, root.file, diagnostics) {
                     Some(named) => {

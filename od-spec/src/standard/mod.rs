@@ -1,16 +1,16 @@
 //! The shipped libraries, and the standards that they describe, for comparing an object with what CiA 301 says about it: a
 //! device may have written the object in full, without the library.
 //!
-//! For comparing, the texts are read once in a process, and only when something is compared; what a compilation has read already is
-//! not read again. Places in them mean nothing to whoever asks: they belong to other sources than the device's.
+//! For comparing, the texts are read once in a process, and only when something is compared. Places in them mean nothing to whoever
+//! asks: they belong to other sources than the device's.
 
-use std::sync::{LazyLock, OnceLock};
+use std::sync::LazyLock;
 
 use crate::ast::Spec;
 use crate::check::{Rule, Rules, Standard};
 use crate::decode::decode;
 use crate::diag::Diagnostics;
-use crate::library::shipped::LIBRARIES;
+use crate::library::shipped::{LIBRARIES, kept};
 use crate::model::{Dictionary, Index, Object};
 use crate::resolve;
 use crate::source::SourceMap;
@@ -25,24 +25,11 @@ static IN_LIBRARY: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped("cia3
 static OF_DRIVES: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped("cia402"));
 /// Apart from the library, which takes much longer to read: every device with PDOs asks for these.
 static IN_RUNS: LazyLock<Option<Dictionary>> = LazyLock::new(|| resolved(&read(RUNS)?));
-/// The libraries as some compilation has read them, in the order of [`LIBRARIES`].
-static DECODED: [OnceLock<Spec>; LIBRARIES.len()] = [const { OnceLock::new() }; LIBRARIES.len()];
-
-/// Keeps the shipped ones among the libraries that a compilation has read and needs no longer.
-pub(crate) fn keep(sources: &SourceMap, libraries: Vec<Spec>) {
-    for library in libraries {
-        let text = sources.file(library.file).text();
-        if let Some(shipped) = LIBRARIES.iter().position(|(_, shipped)| *shipped == text) {
-            let _ = DECODED[shipped].set(library);
-        }
-    }
-}
 
 fn shipped(name: &str) -> Option<Dictionary> {
-    let at = LIBRARIES.iter().position(|(library, _)| *library == name)?;
-    match DECODED[at].get() {
-        Some(decoded) => resolved(decoded),
-        None => resolved(&read(LIBRARIES[at].1)?),
+    match kept(name) {
+        Some(decoded) => resolved(&decoded),
+        None => resolved(&read(LIBRARIES.iter().find(|(library, _)| *library == name)?.1)?),
     }
 }
 

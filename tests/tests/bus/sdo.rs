@@ -275,6 +275,8 @@ fn write_and_read(node: &mut Node<'_>, id: EntryId, client: SdoClient, new: &[u8
 #[test]
 fn every_size_goes_over_on_every_way() {
     let (none, mut done) = (Fates::new(), 0);
+    // Of the longer ones each fifth: segments of seven bytes end everywhere all the same.
+    let is_tried = |length: usize| od_tests::is_long() || length < 130 || length.is_multiple_of(5);
     with_node(|node| {
         for (id, way, block_size) in [
             (TEXT, Way::Segments, 127),
@@ -285,7 +287,7 @@ fn every_size_goes_over_on_every_way() {
             (TEXT, Way::Blocks, 5),
         ] {
             node.server.set_block_size(block_size);
-            for length in 0..=2000 {
+            for length in (0..=2000).filter(|length| is_tried(*length)) {
                 let new = data(length, u8::try_from(length % 251).unwrap());
                 if kept(id, &new) {
                     write_and_read(node, id, client(way, block_size), &new, [&none; 4]);
@@ -294,7 +296,7 @@ fn every_size_goes_over_on_every_way() {
             }
         }
     });
-    assert!(done > 11_900, "{done}");
+    assert!(done > if od_tests::is_long() { 11_900 } else { 2_900 }, "{done}");
 }
 
 fn fates() -> impl Strategy<Value = Fates> {

@@ -5,12 +5,12 @@ use od_documents::Format;
 
 #[test]
 fn a_default_of_bits_is_told_by_their_names() {
-    let text = page("od-spec/devices/pitch-control-system.od.yaml", Format::Markdown, "en", "s/pmm.md");
-    assert_has(&text, "Outputs that switch the heater.<br>Set by default: relay X16.1.");
-    assert_has(&text, "Outputs that switch the cooler. |");
-    let text = page("od-spec/devices/pitch-control-system.od.yaml", Format::Markdown, "en", "s/pmc.md");
+    let text = page("od-spec/devices/pitch-control-system.od.yaml", Format::Markdown, "en", "pmm.md");
+    assert_has(text, "Outputs that switch the heater.<br>Set by default: relay X16.1.");
+    assert_has(text, "Outputs that switch the cooler. |");
+    let text = page("od-spec/devices/pitch-control-system.od.yaml", Format::Markdown, "en", "pmc.md");
     assert_has(
-        &text,
+        text,
         "A bit at 0 suppresses the fault of that bit, unless its priority is A.<br>Set by default: all bits.",
     );
 }

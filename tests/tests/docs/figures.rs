@@ -34,7 +34,7 @@ fn every_figure_that_is_printed_is_there() {
         let figures = system.document.tables().filter_map(|(.., table)| table.figure.as_ref());
         let numbers: Vec<u16> = figures.map(|figure| figure.number).collect();
         assert_eq!(numbers, (1..=last).collect::<Vec<u16>>());
-        let (pages, index) = pages(&system);
+        let (pages, index) = pages(spec);
         let list = pages["tables.md"]
             .tables
             .iter()

@@ -1,14 +1,12 @@
 //! The contents of a device's page: its objects by what they are for.
 
-use od_documents as docs;
+use od_tests::documents;
 
-use super::{EVERYTHING, FULLMO, PITCH, compile_clean};
+use super::{EVERYTHING, FULLMO, PITCH};
 
 /// Titles and indices of the groups of a device, by the device's key.
 fn groups(spec: &str, key: &str) -> Vec<(String, Vec<String>)> {
-    let system = compile_clean(spec).unwrap();
-    let context = docs::dump_context(&system, &docs::options(&system, &[], Some("en")));
-    let context: serde_json::Value = serde_json::from_slice(&context).unwrap();
+    let context = documents::context(spec, "en").unwrap();
     let text = |value: &serde_json::Value| value.as_str().unwrap().to_owned();
     let device = context["devices"].as_array().unwrap().iter().find(|device| device["key"] == key).unwrap();
     let objects = device["objects"].as_array().unwrap();

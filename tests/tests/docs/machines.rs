@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use od_documents as docs;
+use od_tests::documents;
 use serde_json::Value;
 
 use super::{FULLMO, PITCH, compile_clean};
@@ -10,9 +10,7 @@ use super::{FULLMO, PITCH, compile_clean};
 /// The first picture of a state machine in what templates see.
 fn picture(spec: &str) -> Value {
     let system = compile_clean(spec).unwrap();
-    let context = docs::dump_context(&system, &docs::options(&system, &[], None));
-    let context: Value = serde_json::from_slice(&context).unwrap();
-    let mut rest = vec![&context];
+    let mut rest = vec![documents::context(spec, system.language()).unwrap()];
     while let Some(value) = rest.pop() {
         match value {
             Value::Object(map) => {

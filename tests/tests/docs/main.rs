@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use od_documents::{self as docs, Format, Templates};
-use od_spec::model::System;
-use od_tests::compile_clean;
+use od_tests::memo::Memo;
+use od_tests::{compile_clean, documents};
 
 mod defaults;
 mod figures;
@@ -38,21 +38,22 @@ fn is(name: &str, extension: &str) -> bool {
 }
 
 /// All Markdown pages of a specification by name, and the index of tables.
-fn pages(system: &System) -> (BTreeMap<String, Page>, serde_json::Value) {
-    let templates = [Templates::new(Some(Format::Markdown), &[]).unwrap()];
-    let files =
-        docs::artifacts(system, "", "s", &docs::options(system, &[], Some("en")), &templates).unwrap();
-    let (mut pages, mut index) = (BTreeMap::new(), serde_json::Value::Null);
-    for file in files {
-        let name = file.path.strip_prefix("s/").unwrap().to_owned();
-        let text = String::from_utf8(file.bytes).unwrap();
-        if is(&name, "json") {
-            index = serde_json::from_str(&text).unwrap();
-        } else {
-            pages.insert(name, markdown::read(&text));
+type Manual = (BTreeMap<String, Page>, serde_json::Value);
+
+fn pages(spec: &str) -> &'static Manual {
+    static READ: Memo<String, Manual> = Memo::empty();
+    let read = || {
+        let (mut pages, mut index) = (BTreeMap::new(), serde_json::Value::Null);
+        for (name, text) in documents::pages(spec, Format::Markdown, "en")? {
+            if is(name, "json") {
+                index = serde_json::from_str(text)?;
+            } else {
+                pages.insert(name.clone(), markdown::read(text));
+            }
         }
-    }
-    (pages, index)
+        Ok((pages, index))
+    };
+    READ.get(spec.to_owned(), read).unwrap()
 }
 
 /// The tables behind an anchor, up to the next table's anchor.
@@ -67,8 +68,7 @@ fn behind<'a>(page: &'a Page, anchor: &str) -> Vec<&'a Table> {
 
 #[test]
 fn every_table_of_the_pitch_manual_has_its_counterpart() {
-    let system = compile_clean(PITCH).unwrap();
-    let (pages, index) = pages(&system);
+    let (pages, index) = pages(PITCH);
     let tables = index["tables"].as_array().unwrap();
     let numbers: Vec<u64> = tables.iter().filter_map(|table| table["number"].as_u64()).collect();
     assert_eq!(numbers, (1..=75).collect::<Vec<u64>>());
@@ -92,7 +92,7 @@ fn every_table_of_the_pitch_manual_has_its_counterpart() {
 #[test]
 fn the_index_of_tables_names_the_facts_that_differ() {
     let system = compile_clean(PITCH).unwrap();
-    let (_, index) = pages(&system);
+    let (_, index) = pages(PITCH);
     let tables = index["tables"].as_array().unwrap();
     let of = |anchor: &str| tables.iter().find(|table| table["anchor"] == anchor).unwrap();
     // 4.1.1.5 prints 3003h at the detail table of 3004h.
@@ -127,9 +127,9 @@ fn the_index_of_tables_names_the_facts_that_differ() {
 fn no_link_of_a_page_is_dead() {
     for path in [PITCH, FULLMO, EVERYTHING, TWO] {
         let system = compile_clean(path).unwrap();
-        let (pages, _) = pages(&system);
+        let (pages, _) = pages(path);
         let mut links = 0;
-        for (name, page) in &pages {
+        for (name, page) in pages {
             for link in &page.links {
                 let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
                 let file = if file.is_empty() { name.as_str() } else { file };
@@ -149,10 +149,7 @@ fn no_link_of_a_page_is_dead() {
 /// Devices that differ are told apart, numbers have their units, and odd texts break nothing: reviewed line by line.
 #[test]
 fn devices_that_differ_are_told_apart() {
-    let system = compile_clean(TWO).unwrap();
-    let templates = [Templates::new(Some(Format::Markdown), &[]).unwrap()];
-    let options = docs::options(&system, &[], Some("en"));
-    let files = docs::artifacts(&system, "", "s", &options, &templates).unwrap();
+    let files = documents::pages(TWO, Format::Markdown, "en").unwrap();
     let wanted = [
         "README",
         "1-erstes",
@@ -167,9 +164,7 @@ fn devices_that_differ_are_told_apart() {
     ];
     let mut text = String::new();
     for name in wanted {
-        let file =
-            files.iter().find(|file| file.path == format!("s/{name}.md")).unwrap_or_else(|| panic!("{name}"));
-        text.extend(["================ ", name, ".md\n", &String::from_utf8_lossy(&file.bytes)]);
+        text.extend(["================ ", name, ".md\n", &files[&format!("{name}.md")]]);
     }
     insta::assert_snapshot!(text);
 }
@@ -180,11 +175,8 @@ fn the_description_of_the_context_is_complete() {
     let description = std::fs::read_to_string(od_tests::root().join("docs/templates.md")).unwrap();
     let described: BTreeSet<&str> =
         description.split(|sign: char| !sign.is_ascii_alphanumeric() && sign != '_').collect();
-    let system = compile_clean(PITCH).unwrap();
-    let context = docs::dump_context(&system, &docs::options(&system, &[], None));
-    let context: serde_json::Value = serde_json::from_slice(&context).unwrap();
     let mut names = BTreeSet::new();
-    let mut rest = vec![&context];
+    let mut rest = vec![documents::context(PITCH, "en").unwrap()];
     while let Some(value) = rest.pop() {
         match value {
             serde_json::Value::Object(map) => {
@@ -236,7 +228,7 @@ fn the_asciidoc_example_prints_every_table() {
 
 #[test]
 fn a_template_changes_nothing_but_itself() {
-    let system = compile_clean(PITCH).unwrap();
+    let system = compile_clean(TWO).unwrap();
     let options = docs::options(&system, &[], None);
     let print = |templates: &[(String, String)]| {
         let templates = [Templates::new(Some(Format::Html), templates).unwrap()];

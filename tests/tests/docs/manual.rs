@@ -3,17 +3,22 @@
 use std::collections::BTreeSet;
 
 use od_documents::{self as docs, Format, Options, Templates};
+use od_tests::memo::Memo;
 
 use super::{EVERYTHING, FULLMO, PITCH, TWO, compile_clean};
 
 /// The manual of a specification, with or without its errata.
-fn manual(spec: &str, errata: bool) -> String {
-    let system = compile_clean(spec).unwrap();
-    let templates = [Templates::new(Some(Format::Print), &[]).unwrap()];
-    let options = Options { errata, ..docs::options(&system, &[], None) };
-    let files = docs::artifacts(&system, "", "s", &options, &templates).unwrap();
-    let file = files.iter().find(|file| file.path == "s/manual.html").unwrap();
-    String::from_utf8(file.bytes.clone()).unwrap()
+fn manual(spec: &str, errata: bool) -> &'static str {
+    static PRINTED: Memo<(String, bool), String> = Memo::empty();
+    let print = || {
+        let system = compile_clean(spec)?;
+        let templates = [Templates::new(Some(Format::Print), &[])?];
+        let options = Options { errata, ..docs::options(&system, &[], None) };
+        let files = docs::artifacts(&system, "", "s", &options, &templates)?;
+        let file = files.into_iter().find(|file| file.path == "s/manual.html").unwrap();
+        Ok(String::from_utf8(file.bytes)?)
+    };
+    PRINTED.get((spec.to_owned(), errata), print).unwrap()
 }
 
 /// What stands in quotation marks behind a text, each time.
@@ -27,10 +32,10 @@ fn every_link_leads_to_one_place() {
         for errata in [false, true] {
             let page = manual(spec, errata);
             let mut ids = BTreeSet::new();
-            for id in behind(&page, " id=\"") {
+            for id in behind(page, " id=\"") {
                 assert!(ids.insert(id), "{spec}: {id} stands twice");
             }
-            let links: Vec<&str> = behind(&page, "href=\"").collect();
+            let links: Vec<&str> = behind(page, "href=\"").collect();
             assert!(!links.is_empty(), "{spec} has no links");
             for link in links {
                 assert!(

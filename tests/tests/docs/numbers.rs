@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use od_documents::{self as docs, Format, Templates};
+use od_tests::documents;
 use serde_json::Value;
 
 use super::links::{assert_has, page};
@@ -25,35 +26,35 @@ fn files(spec: &str, devices: &[&str], templates: &Templates) -> BTreeMap<String
 
 #[test]
 fn a_number_in_a_text_is_a_link() {
-    let text = page(NUMBERS, Format::Html, "en", "s/index.html");
+    let text = page(NUMBERS, Format::Html, "en", "index.html");
     assert_has(
-        &text,
+        text,
         "<a href=\"#section-1.1\">Sections 1.1</a> and <a href=\"#section-1.2\">1.2</a> tell of them, \
          <a href=\"#section-2\">chapter 2</a> of the speed. <a href=\"#table-12\">Tables 12</a> to \
          <a href=\"#table-14\">14</a>; Table 15.",
     );
-    assert_has(&text, "the colours are in <a href=\"#table-13\">Table 13</a>.");
-    assert_has(&text, "See <a href=\"#figure-7\">Figure 7</a>.");
+    assert_has(text, "the colours are in <a href=\"#table-13\">Table 13</a>.");
+    assert_has(text, "See <a href=\"#figure-7\">Figure 7</a>.");
     assert_has(
-        &text,
+        text,
         "Not Table 130, nor table 48 of CiA 301; as <a href=\"#section-1.2\">section 1.2</a> says.",
     );
     // A heading is none.
-    assert_has(&text, "1.1 Lamp in Table 12</h3>");
+    assert_has(text, "1.1 Lamp in Table 12</h3>");
 }
 
 #[test]
 fn a_number_in_a_german_text_is_a_link() {
-    let text = page(NUMBERS, Format::Html, "de", "s/index.html");
+    let text = page(NUMBERS, Format::Html, "de", "index.html");
     assert_has(
-        &text,
+        text,
         "Die <a href=\"#section-1.1\">Abschnitte 1.1</a> und <a href=\"#section-1.2\">1.2</a> beschreiben sie, \
          <a href=\"#section-2\">Kapitel 2</a> die Drehzahl. <a href=\"#table-12\">Tabellen 12</a> bis \
          <a href=\"#table-14\">14</a>; Tabelle 15.",
     );
-    assert_has(&text, "Siehe <a href=\"#figure-7\">Bild 7</a>.");
+    assert_has(text, "Siehe <a href=\"#figure-7\">Bild 7</a>.");
     assert_has(
-        &text,
+        text,
         "Nicht Tabelle 130, noch Tabelle 48 aus CiA 301; wie <a href=\"#section-1.2\">Abschnitt 1.2</a> sagt.",
     );
 }
@@ -82,12 +83,12 @@ fn a_number_is_a_link_from_page_to_page() {
 /// What the printed manual says is not corrected on the way.
 #[test]
 fn what_an_erratum_prints_is_no_link() {
-    let text = page(NUMBERS, Format::Markdown, "en", "s/errata.md");
+    let text = page(NUMBERS, Format::Markdown, "en", "errata.md");
     assert_has(
-        &text,
+        text,
         "| 1.1, [Table 13](1-two-devices.md#table-13) | see Table 12      | see [Table 13](1-two-devices.md#table-13) |",
     );
-    assert_has(&text, "[Table 12](1-two-devices.md#table-12) has no bits");
+    assert_has(text, "[Table 12](1-two-devices.md#table-12) has no bits");
 }
 
 /// The document of one device has neither the tables of the other nor the sections that only these make.
@@ -202,9 +203,7 @@ impl Said {
     }
 
     fn of(spec: &str, language: &str) -> Self {
-        let system = compile_clean(spec).unwrap();
-        let context = docs::dump_context(&system, &docs::options(&system, &[], Some(language)));
-        let context: Value = serde_json::from_slice(&context).unwrap();
+        let context = documents::context(spec, language).unwrap();
         let mut said = Self::default();
         for chapter in context["chapters"].as_array().unwrap() {
             let mut add = |one: &Value| {
@@ -221,7 +220,7 @@ impl Said {
                 }
             }
         }
-        said.read(&context);
+        said.read(context);
         said
     }
 }

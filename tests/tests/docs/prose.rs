@@ -8,19 +8,15 @@ use od_spec::diag::Diagnostics;
 use od_spec::model::{EntryId, Index, ProseKind, SubIndex};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
+use od_tests::documents;
 
 use super::compile_clean;
 
 const PROSE: &str = "tests/docs/prose.od.yaml";
 
 /// A page in a language.
-fn page(name: &str, language: &str, format: Format) -> String {
-    let system = compile_clean(PROSE).unwrap();
-    let templates = [Templates::new(Some(format), &[]).unwrap()];
-    let files = docs::artifacts(&system, "", "s", &docs::options(&system, &[], Some(language)), &templates);
-    let files = files.unwrap();
-    let file = files.iter().find(|file| file.path == format!("s/{name}")).unwrap();
-    String::from_utf8_lossy(&file.bytes).into_owned()
+fn page(name: &str, language: &str, format: Format) -> &'static str {
+    &documents::pages(PROSE, format, language).unwrap()[name]
 }
 
 /// The pages of the chapters for some devices, in a language.
@@ -112,7 +108,7 @@ fn texts_go_with_the_devices_around_them() {
 fn warnings_stand_where_the_object_does() {
     let text = page("two.md", "en", Format::Markdown);
     assert_in_order(
-        &text,
+        text,
         &[
             "2002h speed",
             "| **Warning:** The axis moves at once.",
@@ -126,10 +122,10 @@ fn warnings_stand_where_the_object_does() {
             "**Warning:** Full power burns.",
         ],
     );
-    assert_in_order(&page("two.md", "de", Format::Markdown), &["**Warnung:** Die Achse fährt sofort los."]);
+    assert_in_order(page("two.md", "de", Format::Markdown), &["**Warnung:** Die Achse fährt sofort los."]);
     let text = page("two.html", "en", Format::Html);
     assert_in_order(
-        &text,
+        text,
         &[
             "<strong>Warning:</strong> The axis moves at once.",
             "<p class=\"warning\"><b>Warning:</b> The plate is hot.</p>",
@@ -185,7 +181,7 @@ fn warnings_are_in_the_eds() {
 fn the_overview_has_every_warning() {
     for (path, language) in [(super::PITCH, "en"), (super::FULLMO, "de")] {
         let system = compile_clean(path).unwrap();
-        let context = od_docs_context(&system, language);
+        let context = documents::context(path, language).unwrap();
         let rows = context["warnings"]["grids"][0]["rows"].as_array().unwrap();
         let warnings: Vec<(&str, &str)> = rows
             .iter()
@@ -229,15 +225,10 @@ fn the_overview_has_every_warning() {
     }
 }
 
-fn od_docs_context(system: &od_spec::model::System, language: &str) -> serde_json::Value {
-    serde_json::from_slice(&docs::dump_context(system, &docs::options(system, &[], Some(language)))).unwrap()
-}
-
 /// A letter is that of the same appendix on every page.
 #[test]
 fn appendices_have_the_same_letter_everywhere() {
-    let system = compile_clean(super::PITCH).unwrap();
-    let context = od_docs_context(&system, "en");
+    let context = documents::context(super::PITCH, "en").unwrap();
     let letters = |list: &serde_json::Value| -> Vec<(String, String, String)> {
         let list = list.as_array().unwrap().iter();
         let text = |one: &serde_json::Value, key: &str| one[key].as_str().unwrap().to_owned();

@@ -613,7 +613,7 @@ fn check_pdos(system: &System, device: &str, direction: Direction, table: &Table
 fn tables_of_the_manual_read_back_as_the_model() {
     for path in [PITCH, FULLMO] {
         let system = compile_clean(path).unwrap();
-        let (pages, index) = pages(&system);
+        let (pages, index) = pages(path);
         let contents: Vec<&TableContent> =
             system.document.tables().map(|(.., table)| &table.content).collect();
         let tables = index["tables"].as_array().unwrap();
@@ -629,7 +629,7 @@ fn tables_of_the_manual_read_back_as_the_model() {
 fn the_object_reference_reads_back_as_the_model() {
     for path in [PITCH, FULLMO, EVERYTHING, TWO] {
         let system = compile_clean(path).unwrap();
-        let (pages, _) = pages(&system);
+        let (pages, _) = pages(path);
         for device in &system.devices {
             let page = &pages[&format!("{}.md", device.key)];
             let overview =
@@ -678,7 +678,7 @@ fn entries(system: &System) -> impl Iterator<Item = (EntryId, &Entry)> {
 #[test]
 fn aliases_and_storage_read_back_as_the_model() {
     let system = compile_clean(PITCH).unwrap();
-    let (pages, _) = pages(&system);
+    let (pages, _) = pages(PITCH);
     let aliases = &pages["aliases.md"].tables[0];
     let expected: Vec<(EntryId, EntryId)> =
         entries(&system).filter_map(|(id, entry)| Some((id, entry.alias.as_ref()?.target))).collect();
@@ -708,7 +708,7 @@ fn aliases_and_storage_read_back_as_the_model() {
 fn units_read_back_as_the_model() {
     for path in [PITCH, FULLMO] {
         let system = compile_clean(path).unwrap();
-        let (pages, _) = pages(&system);
+        let (pages, _) = pages(path);
         let units = &pages["units.md"].tables[0];
         let used: BTreeSet<&str> =
             entries(&system).filter_map(|(_, entry)| Some(entry.unit.as_ref()?.name.as_str())).collect();
@@ -742,7 +742,7 @@ fn units_read_back_as_the_model() {
 fn errata_read_back_as_the_model() {
     for path in [PITCH, FULLMO] {
         let system = compile_clean(path).unwrap();
-        let (pages, _) = pages(&system);
+        let (pages, _) = pages(path);
         let errata = &pages["errata.md"].tables[0];
         assert_eq!(errata.rows.len(), system.errata.len());
         for (at, (row, erratum)) in errata.rows.iter().zip(&system.errata).enumerate() {
@@ -772,7 +772,7 @@ fn errata_read_back_as_the_model() {
 #[test]
 fn constraints_and_error_codes_read_back_as_the_model() {
     let system = compile_clean(PITCH).unwrap();
-    let (pages, _) = pages(&system);
+    let (pages, _) = pages(PITCH);
     let constraints = &pages["constraints.md"];
     let name = |constraint: &Constraint| match &constraint.series {
         Some(series) => series.name.replace("{n}", "n"),

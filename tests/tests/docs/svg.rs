@@ -1,8 +1,7 @@
 //! Pictures of the HTML pages, read back.
 
-use od_documents::{self as docs, Format, Templates};
-
-use super::compile_clean;
+use od_documents::Format;
+use od_tests::documents;
 
 /// An element of a picture with its text.
 #[derive(Debug, Clone)]
@@ -53,12 +52,7 @@ fn unescaped(text: &str) -> String {
 
 /// The pictures of a kind in the pages of a specification: elements of each.
 pub(super) fn pictures(spec: &str, language: &str, kind: &str) -> Vec<Vec<Element>> {
-    let system = compile_clean(spec).unwrap();
-    let templates = [Templates::new(Some(Format::Html), &[]).unwrap()];
-    let options = docs::options(&system, &[], Some(language));
-    let files = docs::artifacts(&system, "", "s", &options, &templates).unwrap();
-    let index = files.iter().find(|file| file.path == "s/index.html").unwrap();
-    let page = String::from_utf8(index.bytes.clone()).unwrap();
+    let page = &documents::pages(spec, Format::Html, language).unwrap()["index.html"];
     let begin = format!("<svg class=\"picture {kind}\"");
     let svgs = page.split(begin.as_str()).skip(1);
     svgs.map(|svg| elements(&format!("<svg {}", svg.split("</svg>").next().unwrap()))).collect()

@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use std::sync::Arc;
+
 use firmware_glue::{AbortCode, Constrained as _, Dictionary as _, OutOfRange, Quantity as _, Special};
 use od_documents::{self as docs, Format, Templates};
 use od_spec::diag::Diagnostics;
@@ -18,7 +20,7 @@ mod pack {
 use pack::Pack;
 use pack::units::{Bipolar, CelsiusAbove40, Decikelvin, Kelvin, Third, Volt};
 
-fn system() -> System {
+fn system() -> Arc<System> {
     compile_clean("tests/shared/physical.od.yaml").unwrap()
 }
 

@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use firmware_glue::quantity::Fraction;
 use firmware_glue::{Dictionary as _, Quantity as _};
@@ -17,7 +18,7 @@ use od_spec::model::{
 };
 use od_tests::compile_clean;
 
-fn fullmo() -> System {
+fn fullmo() -> Arc<System> {
     compile_clean("od-spec/devices/fullmo-drive.od.yaml").unwrap()
 }
 

@@ -59,7 +59,7 @@ fn every_specification_keeps_its_facts_and_is_laid_out_at_once() {
         assert_eq!(comments(&text), comments(&new), "{name}");
         let before = outputs(&path, &text);
         compared += usize::from(before.is_some());
-        assert!(before == outputs(&path, &new), "{name}");
+        assert!(new == text || before == outputs(&path, &new), "{name}");
     }
     assert!(laid_out > 150 && compared > 60, "{laid_out} {compared}");
 }

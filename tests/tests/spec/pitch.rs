@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use od_spec::model::{
     Access, DataType, Dictionary, EntryId, Erratum, ErratumKind, Index, ObjectKind, Origin, PdoMapping,
@@ -10,7 +11,7 @@ use od_spec::model::{
 };
 use od_tests::compile_clean;
 
-fn pitch() -> System {
+fn pitch() -> Arc<System> {
     compile_clean("od-spec/devices/pitch-control-system.od.yaml").unwrap()
 }
 

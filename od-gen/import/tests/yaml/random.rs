@@ -115,9 +115,10 @@ fn change_entry(entry: &mut Entry, what: u8, number: i64) {
     }
 }
 
-/// Few, unless `PROPTEST_CASES` asks for more.
+/// Few, unless `PROPTEST_CASES` or a long run asks for more.
 fn cases() -> u32 {
-    std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(12)
+    let few = if std::env::var_os("OD_TESTS_LONG").is_some() { 12 } else { 4 };
+    std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(few)
 }
 
 proptest! {

@@ -49,7 +49,10 @@ const DOCUMENTS: [(&str, &str, &str, Reading, Reading); 7] = [
 /// The documents as their readers see them.
 pub(crate) fn read_documents(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     const DOCS: &str = "target/browser/docs";
-    let mut directories = Vec::new();
+    let mut arguments = match amount {
+        Amount::Sample => vec!["--sample".to_owned()],
+        Amount::All => Vec::new(),
+    };
     for (stem, path, language, in_sample, in_all) in DOCUMENTS {
         let reading = match amount {
             Amount::Sample => in_sample,
@@ -64,7 +67,7 @@ pub(crate) fn read_documents(runner: &mut Runner, amount: Amount) -> Result<(), 
         let mut set = docs::artifacts(&system, "", stem, &options, &html)?;
         if reading == Reading::Asked {
             write_all(&root().join(DOCS), &set)?;
-            directories.push(format!("{DOCS}/{stem}"));
+            arguments.push(format!("{DOCS}/{stem}"));
             continue;
         }
         let beside = [("dump", json::dump(&system, &[])), ("context", docs::dump_context(&system, &options))];
@@ -80,11 +83,11 @@ pub(crate) fn read_documents(runner: &mut Runner, amount: Amount) -> Result<(), 
         let print = [docs::Templates::new(Some(docs::Format::Print), &[])?];
         set.extend(docs::artifacts(&system, "", &format!("{stem}-print"), &options, &print)?);
         write_all(&root().join(DOCS), &set)?;
-        directories.extend(["", "-asciidoc", "-print"].map(|kind| format!("{DOCS}/{stem}{kind}")));
+        arguments.extend(["", "-asciidoc", "-print"].map(|kind| format!("{DOCS}/{stem}{kind}")));
     }
-    directories.extend(hostile::documents(DOCS, amount)?);
-    let directories: Vec<&str> = directories.iter().map(String::as_str).collect();
-    runner.python("tests/browser/run.py", &directories)
+    arguments.extend(hostile::documents(DOCS, amount)?);
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    runner.python("tests/browser/run.py", &arguments)
 }
 
 /// The templates of the AsciiDoc example.

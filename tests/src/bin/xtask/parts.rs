@@ -66,10 +66,8 @@ pub(crate) enum Amount {
 pub(crate) enum Turn {
     /// From the start, one after the other: cargo, which works on all cores.
     First,
-    /// At the same time, one after the other, because these parts share what they install.
+    /// At the same time, one after the other; two at a time when those of cargo have ended.
     Beside,
-    /// When all others have ended, one after the other: a client, a browser or an emulator is given a time to answer.
-    Alone,
 }
 
 /// Whether a part can run.
@@ -122,12 +120,23 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 34] = [
+pub(crate) static PARTS: [Part; 38] = [
     rust("form", "form", Tier::Check, form::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
     rust("rust", "Rust tests", Tier::Gate, rust_tests::integration),
     rust("examples", "examples in the documentation", Tier::Gate, rust_tests::examples),
     rust("packages", "packages are complete", Tier::Gate, package::complete),
+    // What takes longest begins first.
+    Part {
+        area: Area::Browser,
+        turn: Turn::Beside,
+        needs: BROWSER,
+        installer: Some("tests/browser/run.py"),
+        ..rust("browser", "documents in a browser", Tier::Gate, |runner| {
+            browser::read_documents(runner, Amount::Sample)
+        })
+    },
+    reader("st", "Structured Text", Tier::Gate, |runner| readers::structured_text(runner, Amount::Sample)),
     // The same mutants in every run, as the seed decides.
     Part {
         turn: Turn::Beside,
@@ -138,7 +147,7 @@ pub(crate) static PARTS: [Part; 34] = [
     Part {
         uses: NODE,
         ..reader("selftest", "EDS readers notice mistakes", Tier::Gate, |runner| {
-            runner.python("tests/readers/selftest/selftest.py", &[])
+            readers::self_test(runner, Amount::Sample)
         })
     },
     Part {
@@ -156,27 +165,21 @@ pub(crate) static PARTS: [Part; 34] = [
         })
     },
     Part { uses: NODE, ..reader("drives", "EDS readers: drives of odgen new", Tier::Gate, readers::drives) },
-    Part { uses: NODE, ..reader("foretold", "EDS readers: what is foretold", Tier::Gate, readers::foretold) },
+    Part {
+        uses: NODE,
+        ..reader("foretold", "EDS readers: what is foretold", Tier::Gate, |runner| {
+            readers::foretold(runner, Amount::Sample)
+        })
+    },
     reader("eds2c", "EDS readers: firmware in C", Tier::Gate, readers::firmware_in_c),
     reader("concise", "EDS readers: concise DCF", Tier::Gate, readers::concise_dcf),
     reader("xdd", "EDS readers: XDD and XDC", Tier::Gate, readers::xdd_structure),
     reader("plant", "EDS readers: a plant", Tier::Gate, readers::plant),
     reader("dbc", "DBC readers", Tier::Gate, readers::dbc),
-    reader("st", "Structured Text", Tier::Gate, |runner| readers::structured_text(runner, Amount::Sample)),
     reader("lsp", "language server", Tier::Gate, readers::language_server),
     Part {
-        turn: Turn::Alone,
         uses: NODE,
         ..reader("sdo", "SDO client", Tier::Gate, |runner| readers::sdo_client(runner, Amount::Sample))
-    },
-    Part {
-        area: Area::Browser,
-        turn: Turn::Alone,
-        needs: BROWSER,
-        installer: Some("tests/browser/run.py"),
-        ..rust("browser", "documents in a browser", Tier::Gate, |runner| {
-            browser::read_documents(runner, Amount::Sample)
-        })
     },
     Part {
         area: Area::Browser,
@@ -195,7 +198,7 @@ pub(crate) static PARTS: [Part; 34] = [
     },
     Part {
         area: Area::Firmware,
-        turn: Turn::Alone,
+        turn: Turn::Beside,
         needs: EMULATOR,
         ..rust("emulator", "firmware in an emulator", Tier::Gate, |runner| {
             runner.python("tests/thumb/run.py", &["test"])
@@ -203,7 +206,7 @@ pub(crate) static PARTS: [Part; 34] = [
     },
     Part {
         area: Area::Firmware,
-        turn: Turn::Alone,
+        turn: Turn::Beside,
         needs: EMULATOR,
         ..rust("demo", "demo firmware in an emulator", Tier::Gate, readers::demo_firmware)
     },
@@ -211,13 +214,23 @@ pub(crate) static PARTS: [Part; 34] = [
         area: Area::Firmware,
         turn: Turn::Beside,
         needs: &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
-        ..rust("plain-c", "dictionaries in plain C", Tier::Gate, plain_c::try_all)
+        ..rust("plain-c", "dictionaries in plain C", Tier::Gate, |runner| {
+            plain_c::try_all(runner, Amount::Sample)
+        })
     },
     rust(
         "long-rust",
         "Rust tests with all random values",
         Tier::Long("finds rare faults only; the gate tries the first quarter of the same values"),
         rust_tests::long,
+    ),
+    rust(
+        "documentation",
+        "links of the documentation",
+        Tier::Long(
+            "reads every crate once more; the gate's lints want a text at each item, and its examples run",
+        ),
+        form::documentation,
     ),
     rust(
         "features",
@@ -239,16 +252,49 @@ pub(crate) static PARTS: [Part; 34] = [
         Tier::Long("finds rare faults only; the gate tries the first of the same mutants"),
         |runner| runner.fuzz(&["--seconds", "600", "--seed", "1"]),
     ),
+    Part {
+        uses: NODE,
+        ..reader(
+            "long-selftest",
+            "EDS readers notice all mistakes",
+            Tier::Long(
+                "changes its answer with the scripts of the readers only; the gate plants three of the mistakes",
+            ),
+            |runner| readers::self_test(runner, Amount::All),
+        )
+    },
+    Part {
+        uses: NODE,
+        ..reader(
+            "long-foretold",
+            "EDS readers: what is foretold of all faults",
+            Tier::Long(
+                "plants the same faults in more places; the gate takes each sixth of the files, of which all have to agree",
+            ),
+            |runner| readers::foretold(runner, Amount::All),
+        )
+    },
     reader(
         "long-st",
         "Structured Text of all devices",
         Tier::Long(
-            "the parser that others wrote takes minutes for it; the gate takes one device of each kind",
+            "the parser that others wrote takes minutes for it; the gate takes one device of each kind, and of its \
+             constants and of the planted faults each sixth",
         ),
         |runner| readers::structured_text(runner, Amount::All),
     ),
     Part {
-        turn: Turn::Alone,
+        area: Area::Firmware,
+        turn: Turn::Beside,
+        needs: &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
+        ..rust(
+            "long-plain-c",
+            "dictionaries in plain C with all random requests",
+            Tier::Long("finds rare faults only; the gate asks the first quarter of the same requests"),
+            |runner| plain_c::try_all(runner, Amount::All),
+        )
+    },
+    Part {
         uses: NODE,
         ..reader(
             "long-sdo",
@@ -259,13 +305,15 @@ pub(crate) static PARTS: [Part; 34] = [
     },
     Part {
         area: Area::Browser,
-        turn: Turn::Alone,
+        turn: Turn::Beside,
         needs: BROWSER,
         installer: Some("tests/browser/run.py"),
         ..rust(
             "long-browser",
             "all documents in a browser",
-            Tier::Long("looks at eight documents in the same way; the gate looks at two of them"),
+            Tier::Long(
+                "looks at eight documents, at everything in each width; the gate looks at three, at one of each kind",
+            ),
             |runner| browser::read_documents(runner, Amount::All),
         )
     },

@@ -10,11 +10,17 @@ use od_tests::c_dictionary::{
 };
 use od_tests::{Failure, root};
 
+use crate::parts::Amount;
 use crate::runner::Runner;
 use crate::tools::thumb_linker;
 
-/// Requests by chance, beside those that go through all entries.
-const RANDOM: usize = 20_000;
+/// Requests by chance, beside those that go through all entries; the sample is the first of all.
+const fn random(amount: Amount) -> usize {
+    match amount {
+        Amount::Sample => 5_000,
+        Amount::All => 20_000,
+    }
+}
 
 const PITCH: &str = "od-spec/devices/pitch-control-system.od.yaml";
 const FULLMO: &str = "od-spec/devices/fullmo-drive.od.yaml";
@@ -38,16 +44,17 @@ fn compilers() -> [Compiler; 4] {
 }
 
 /// Compiles and asks them all.
-pub(crate) fn try_all(runner: &mut Runner) -> Result<(), Failure> {
+pub(crate) fn try_all(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
+    let random = random(amount);
     let directory = root().join("target/plain-c");
     let _ = std::fs::remove_dir_all(&directory);
     let mut trial = PlainC { directory, runner };
     trial
-        .device(PITCH, "pmc", |seed| Trial::new(Reference::generated(Pmc::new(5)), seed).exchange(RANDOM))?;
+        .device(PITCH, "pmc", |seed| Trial::new(Reference::generated(Pmc::new(5)), seed).exchange(random))?;
     trial
-        .device(PITCH, "pmm", |seed| Trial::new(Reference::generated(Pmm::new(5)), seed).exchange(RANDOM))?;
+        .device(PITCH, "pmm", |seed| Trial::new(Reference::generated(Pmm::new(5)), seed).exchange(random))?;
     trial.device(FULLMO, "fullmo", |seed| {
-        Trial::new(Reference::generated(Fullmo::new(5)), seed).exchange(RANDOM)
+        Trial::new(Reference::generated(Fullmo::new(5)), seed).exchange(random)
     })?;
     for path in TESTED {
         let system = write(path, &trial.directory)?.system;
@@ -59,7 +66,7 @@ pub(crate) fn try_all(runner: &mut Runner) -> Result<(), Failure> {
         let table = lists.table().map_err(|error| error.to_string())?;
         let dictionary = LiveDictionary::new(&live, &table, 5)?;
         trial.device(path, &device.key, |seed| {
-            Trial::new(Reference::plain(dictionary), seed).exchange(RANDOM)
+            Trial::new(Reference::plain(dictionary), seed).exchange(random)
         })?;
     }
     Ok(())

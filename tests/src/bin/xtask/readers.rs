@@ -82,11 +82,24 @@ pub(crate) fn drives(runner: &mut Runner) -> Result<(), Failure> {
     runner.python("tests/readers/run.py", &arguments)
 }
 
+/// The option of scripts that look at so much.
+const fn sample(amount: Amount) -> &'static [&'static str] {
+    match amount {
+        Amount::Sample => &["--sample"],
+        Amount::All => &[],
+    }
+}
+
+/// The scripts of the readers themselves: they notice planted mistakes.
+pub(crate) fn self_test(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
+    runner.python("tests/readers/selftest/selftest.py", sample(amount))
+}
+
 /// Files with planted faults: who refuses them, as `odgen check` foretells it.
-pub(crate) fn foretold(runner: &mut Runner) -> Result<(), Failure> {
+pub(crate) fn foretold(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     let odgen = beside("odgen")?;
     let script = Path::new("tests/readers/predictions.py");
-    runner.run(Command::new("python3").arg(script).arg("--odgen").arg(odgen))
+    runner.run(Command::new("python3").arg(script).args(sample(amount)).arg("--odgen").arg(odgen))
 }
 
 /// What eds2c makes of the EDS files of the shipped devices.
@@ -168,7 +181,7 @@ pub(crate) fn dbc(runner: &mut Runner) -> Result<(), Failure> {
 pub(crate) fn structured_text(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let mut command = Command::new(&python);
-    command.arg("tests/readers/st.py").arg("--odgen").arg(beside("odgen")?);
+    command.arg("tests/readers/st.py").args(sample(amount)).arg("--odgen").arg(beside("odgen")?);
     command.arg("--frames").arg(beside("pdo-frames")?);
     let (as_it_is, faulty, specs): (&[&str], &[&str], &[&str]) = match amount {
         Amount::Sample => (&["limits"], &["readme/valve"], specs(amount)),

@@ -26,7 +26,8 @@ pub(crate) fn prove(runner: &mut Runner, specs: &[&str], python: &Path, odgen: &
     }
     // What the shipped devices do not have.
     let spec = "tests/readers/limits.od.yaml";
-    let set = artifacts(&compile_clean(spec)?, "limits", &Selection::default());
+    let system = compile_clean(spec)?;
+    let set = artifacts(&system, "limits", &Selection::default());
     write_all(&root().join(LIMITS), &set)?;
     let (dump, eds) = (format!("{LIMITS}/limits.json"), format!("{LIMITS}/eds"));
     let arguments = ["--dump", &dump, "--eds-dir", &eds, "--spec", spec, "--least", "1500"];

@@ -1,6 +1,9 @@
 //! How every access ends: the cases of the Rust dictionary, through the interface's reading and writing.
 
+use std::collections::BTreeMap;
+
 use od_tests::access_cases;
+use serde_json::Value;
 
 use crate::canopennode::project::{Project, of_workspace};
 
@@ -21,7 +24,7 @@ type Answer = (u32, Option<Vec<u8>>);
 /// Where the stack itself decides otherwise than the Rust dictionary, and what it gives instead.
 struct Difference {
     reason: &'static str,
-    is_about: fn(&Case, &Project) -> bool,
+    is_about: fn(&Case, &Entries<'_>) -> bool,
     expected: fn(&Case) -> Answer,
 }
 
@@ -33,14 +36,12 @@ const DEVICE_STATE: u32 = 0x0800_0022;
 const DIFFERENCES: [Difference; 4] = [
     Difference {
         reason: "the stack has the history of errors, and no memory of the dictionary",
-        is_about: |case, project| {
-            case.index == 0x1003 && entry(case, project).is_some() && reaches_memory(case)
-        },
+        is_about: |case, entries| case.index == 0x1003 && entries.of(case).is_some() && reaches_memory(case),
         expected: |_| (NO_SUB_INDEX, None),
     },
     Difference {
         reason: "the stack adds the node-ID itself where an identifier is a base of the pre-defined connection set",
-        is_about: |case, project| case.kind == 0 && is_base(case, project),
+        is_about: |case, entries| case.kind == 0 && is_base(case, entries),
         expected: |case| {
             let of_node = case.after.clone().unwrap_or_default();
             let number = u32::from_le_bytes(of_node.try_into().unwrap());
@@ -49,19 +50,18 @@ const DIFFERENCES: [Difference; 4] = [
     },
     Difference {
         reason: "the stack's server looks at the length before it asks whether the entry is locked",
-        is_about: |case, project| {
-            let is_text = entry(case, project)
-                .is_some_and(|entry| entry["type"].as_str().unwrap().ends_with("-string"));
+        is_about: |case, entries| {
+            let is_text =
+                entries.of(case).is_some_and(|entry| entry["type"].as_str().unwrap().ends_with("-string"));
             case.code == DEVICE_STATE && case.data.is_empty() && !is_text
         },
         expected: |_| (TOO_SHORT, None),
     },
     Difference {
         reason: "a lock is asked before it is known that the application has nothing for a DOMAIN",
-        is_about: |case, project| {
+        is_about: |case, entries| {
             case.kind == 1
-                && entry(case, project)
-                    .is_some_and(|entry| entry["type"] == "domain" && entry["locked"] == true)
+                && entries.of(case).is_some_and(|entry| entry["type"] == "domain" && entry["locked"] == true)
         },
         expected: |_| (DEVICE_STATE, None),
     },
@@ -72,15 +72,28 @@ fn reaches_memory(case: &Case) -> bool {
     case.kind == 0 || !matches!(case.code, 0x0601_0002 | TOO_LONG | TOO_SHORT)
 }
 
-fn entry<'p>(case: &Case, project: &'p Project) -> Option<&'p serde_json::Value> {
-    let objects = project.device["objects"].as_array().unwrap();
-    let object = objects.iter().find(|object| object["index"] == format!("0x{:04X}", case.index))?;
-    object["entries"].as_array().unwrap().iter().find(|entry| entry["sub"] == case.sub)
+/// The entries of a device by index and sub-index.
+struct Entries<'p>(BTreeMap<(u16, u8), &'p Value>);
+
+impl<'p> Entries<'p> {
+    fn of_device(project: &'p Project) -> Self {
+        let entries = project.device["objects"].as_array().unwrap().iter().flat_map(|object| {
+            let index = object["index"].as_str().unwrap().trim_start_matches("0x");
+            let index = u16::from_str_radix(index, 16).unwrap();
+            let entries = object["entries"].as_array().unwrap().iter();
+            entries.map(move |entry| ((index, entry["sub"].as_u64().unwrap().try_into().unwrap()), entry))
+        });
+        Self(entries.collect())
+    }
+
+    fn of(&self, case: &Case) -> Option<&'p Value> {
+        self.0.get(&(case.index, case.sub)).copied()
+    }
 }
 
 /// Whether an entry holds a base of the pre-defined connection set: by the number of the PDO, as the devices here have no gaps.
-fn is_base(case: &Case, project: &Project) -> bool {
-    let has_node = entry(case, project).is_some_and(|entry| entry["default"].get("formula").is_some());
+fn is_base(case: &Case, entries: &Entries<'_>) -> bool {
+    let has_node = entries.of(case).is_some_and(|entry| entry["default"].get("formula").is_some());
     let number = case.index & 0xFF;
     let base = match (case.index & 0xFF00, case.sub) {
         (0x1000, 0) if case.index == 0x1014 => 0x80,
@@ -91,7 +104,8 @@ fn is_base(case: &Case, project: &Project) -> bool {
         _ => return false,
     };
     has_node
-        && entry(case, project)
+        && entries
+            .of(case)
             .and_then(|entry| entry["default"]["raw"].as_u64())
             .is_some_and(|raw| raw & 0x7FF == base)
 }
@@ -128,13 +142,14 @@ fn try_all(project: &Project, least: usize) -> [usize; DIFFERENCES.len()] {
     let cases = cases(&made.bytes);
     assert_eq!((answers.lines().count(), cases.len()), (made.count, made.count));
     assert!(made.count >= least, "{} cases only", made.count);
+    let entries = Entries::of_device(project);
     let mut used = [0; DIFFERENCES.len()];
     for (number, (case, answer)) in cases.iter().zip(answers.lines()).enumerate() {
         // A case has no room for a longer text.
         if case.data.len() >= 254 {
             continue;
         }
-        let difference = DIFFERENCES.iter().position(|difference| (difference.is_about)(case, project));
+        let difference = DIFFERENCES.iter().position(|difference| (difference.is_about)(case, &entries));
         let (code, after) = match difference {
             Some(at) => {
                 used[at] += 1;

@@ -107,8 +107,12 @@ fn a_text_stays_a_text_in_every_output() {
 
 #[test]
 fn a_text_that_turns_is_refused_wherever_it_stands() {
-    for site in sites(TEXTS) {
-        for (payload, escaped) in [("\u{202e}", true), ("\u{200f}", true), ("\u{2069}", false)] {
+    let payloads = [("\u{202e}", true), ("\u{200f}", true), ("\u{2069}", false)];
+    for (at, site) in sites(TEXTS).into_iter().enumerate() {
+        // Each site has one of them in turn, and all of a long run.
+        let first = if od_tests::is_long() { 0 } else { at % payloads.len() };
+        let count = if od_tests::is_long() { payloads.len() } else { 1 };
+        for (payload, escaped) in payloads.into_iter().skip(first).take(count) {
             let (text, _) = planted(TEXTS, std::slice::from_ref(&site), &[0], payload);
             let text = if escaped { text } else { text.replace("\\u2069", payload) };
             let (_, compiled) = compiled(&text);

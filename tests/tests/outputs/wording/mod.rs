@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use od_documents::{self as docs, Format, Templates};
+use od_documents::Format;
 use od_spec::model::{Dictionary, Entry, EntryId, Index, Role, SubIndex, System};
 use od_tests::{compile_clean, root};
 
@@ -104,13 +104,11 @@ fn the_eds_says_what_the_model_says() {
 
 #[test]
 fn the_documents_say_what_the_model_says_in_every_language() {
-    for_each_device(|_, system, device| {
+    for_each_device(|name, _, device| {
         for titles in [documents::ENGLISH, documents::GERMAN] {
-            let templates = [Templates::new(Some(Format::Markdown), &[]).unwrap()];
-            let options = docs::options(system, &[], Some(titles.language));
-            let files = docs::artifacts(system, "", "s", &options, &templates).unwrap();
-            let page = files.iter().find(|file| file.path == format!("s/{}.md", device.key)).unwrap();
-            let page = markdown::read(std::str::from_utf8(&page.bytes).unwrap());
+            let spec = format!("od-spec/devices/{name}.od.yaml");
+            let pages = od_tests::documents::pages(&spec, Format::Markdown, titles.language).unwrap();
+            let page = markdown::read(&pages[&format!("{}.md", device.key)]);
             let mut output = Output::new(device);
             documents::read(&page, &titles, &mut output);
             assert_complete_and_right(&format!("documents ({})", titles.language), &output);

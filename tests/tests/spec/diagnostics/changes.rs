@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use od_spec::diag::{Diagnostic, Edit};
 
-use crate::diagnostics::{cases, run};
+use crate::diagnostics::{run, said_of_cases};
 
 /// The text after a change.
 fn changed(text: &str, edit: &Edit) -> String {
@@ -23,16 +23,15 @@ const CODES: usize = 15;
 #[test]
 fn every_change_puts_its_message_right() {
     let mut codes = BTreeSet::new();
-    for (name, text) in cases() {
-        let (_, root, compiled) = run(&name, &text);
+    for (name, text, (_, root, compiled)) in said_of_cases() {
         for diagnostic in &compiled.diagnostics {
             // Changes that are made together would have to be tried together; a specification has none.
             assert!(diagnostic.edits.len() < 2, "{name}");
             for edit in diagnostic.edits.iter().chain(diagnostic.meant.as_deref()) {
-                assert_eq!(edit.span.file, root, "{name}");
+                assert_eq!(edit.span.file, *root, "{name}");
                 codes.insert(diagnostic.code.id);
-                let new = changed(&text, edit);
-                let (_, _, again) = run(&name, &new);
+                let new = changed(text, edit);
+                let (_, _, again) = run(name, &new);
                 let before = compiled.diagnostics.iter().filter(|one| said(one) == said(diagnostic)).count();
                 let after = again.diagnostics.iter().filter(|one| said(one) == said(diagnostic)).count();
                 assert!(after < before, "{name}: {} stays with {edit:?}", diagnostic.message);
@@ -48,8 +47,7 @@ fn every_change_puts_its_message_right() {
 #[test]
 fn the_word_that_a_help_asks_about_is_a_change() {
     let mut without = BTreeSet::new();
-    for (name, text) in cases() {
-        let (_, _, compiled) = run(&name, &text);
+    for (_, _, (_, _, compiled)) in said_of_cases() {
         for diagnostic in &compiled.diagnostics {
             let help = diagnostic.help.as_deref().unwrap_or_default();
             if help.contains("did you mean `") && !help.contains("` or `") && diagnostic.meant.is_none() {

@@ -11,7 +11,7 @@ use od_spec::{NoFiles, Strictness, all_codes, code, compile_as, read_text};
 
 use crate::diagnostics::bytes_and_libraries::{LAMP, compiled_with};
 use crate::diagnostics::settings::{HEATER, assigned};
-use crate::diagnostics::{cases, codes, parameter_files, parts, plants, run};
+use crate::diagnostics::{codes, parameter_files, parts, plants, run, said_of_cases};
 
 #[path = "../../../../od-gen/cli/tests/cli/provoked.rs"]
 mod command_line;
@@ -103,8 +103,8 @@ fn example(example: &Example) -> BTreeSet<&'static Code> {
 fn every_code_has_a_case() {
     let mut provoked: BTreeSet<&'static Code> = BTreeSet::new();
     let mut of_parameters: BTreeSet<&'static Code> = BTreeSet::new();
-    for (name, text) in cases() {
-        provoked.extend(codes(&run(&name, &text).2.diagnostics));
+    for (.., (_, _, compiled)) in said_of_cases() {
+        provoked.extend(codes(&compiled.diagnostics));
     }
     for code in all_codes() {
         provoked.extend(code.example.iter().flat_map(example));

@@ -24,6 +24,7 @@ mod wording_rules;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Code, Diagnostic, Diagnostics};
@@ -47,6 +48,20 @@ fn cases() -> Vec<(String, String)> {
     cases.sort();
     assert!(!cases.is_empty());
     cases
+}
+
+/// Name and text of a case, and what is said about it.
+type Said = (String, String, (SourceMap, FileId, Compiled));
+
+fn said_of_cases() -> &'static [Said] {
+    static SAID: LazyLock<Vec<Said>> = LazyLock::new(|| {
+        let said = cases().into_iter().map(|(name, text)| {
+            let said = run(&name, &text);
+            (name, text, said)
+        });
+        said.collect()
+    });
+    &SAID
 }
 
 fn read(path: &Path) -> String {

@@ -6,7 +6,7 @@ use od_spec::diag::{Diagnostic, Language};
 use od_spec::source::{SourceMap, Span};
 
 use crate::diagnostics::codes::eds_example;
-use crate::diagnostics::{cases, human, run};
+use crate::diagnostics::{cases, human, run, said_of_cases};
 
 /// The wording rules: what the message says, how it starts and ends, that there is help, and that places exist.
 pub(crate) fn check_wording(diagnostic: &Diagnostic, sources: &SourceMap, case: &str) {
@@ -53,10 +53,9 @@ fn is_inside(span: Span, sources: &SourceMap) -> bool {
 
 #[test]
 fn messages_keep_the_wording_rules() {
-    for (name, text) in cases() {
-        let (sources, _, compiled) = run(&name, &text);
+    for (name, _, (sources, _, compiled)) in said_of_cases() {
         for diagnostic in &compiled.diagnostics {
-            check_wording(diagnostic, &sources, &name);
+            check_wording(diagnostic, sources, name);
             assert!(!diagnostic.labels.is_empty(), "{name}: {} has no place", diagnostic.message);
         }
     }
@@ -84,12 +83,11 @@ fn messages_about_eds_texts_keep_the_wording_rules() {
 /// A library of the compiler is right: what is wrong is wrong in the user's file.
 #[test]
 fn messages_are_about_the_users_file() {
-    for (name, text) in cases() {
-        let (_, root, compiled) = run(&name, &text);
+    for (name, _, (_, root, compiled)) in said_of_cases() {
         for diagnostic in &compiled.diagnostics {
             assert_eq!(
                 diagnostic.labels.first().map(|label| label.span.file),
-                Some(root),
+                Some(*root),
                 "{name}: {}",
                 diagnostic.message
             );
@@ -99,8 +97,7 @@ fn messages_are_about_the_users_file() {
 
 #[test]
 fn messages_are_sorted_and_not_repeated() {
-    for (name, text) in cases() {
-        let (_, _, compiled) = run(&name, &text);
+    for (name, _, (_, _, compiled)) in said_of_cases() {
         let places: Vec<_> = compiled
             .diagnostics
             .iter()
@@ -119,13 +116,12 @@ fn messages_are_sorted_and_not_repeated() {
 
 #[test]
 fn short_and_json_are_one_line_each() {
-    for (name, text) in cases() {
-        let (sources, _, compiled) = run(&name, &text);
+    for (name, _, (sources, _, compiled)) in said_of_cases() {
         let count = compiled.diagnostics.iter().count();
-        let short = render(&compiled.diagnostics, &sources, Format::Short, false);
+        let short = render(&compiled.diagnostics, sources, Format::Short, false);
         assert_eq!(short.lines().count(), count, "{name}: {short}");
         assert!(short.lines().all(|line| line.starts_with(&format!("{name}:"))), "{name}: {short}");
-        let json = findings::json(&compiled.diagnostics, &sources);
+        let json = findings::json(&compiled.diagnostics, sources);
         assert_eq!(json.lines().count(), count, "{name}: {json}");
         for (line, diagnostic) in json.lines().zip(&compiled.diagnostics) {
             let value: serde_json::Value = serde_json::from_str(line).unwrap();
@@ -141,12 +137,11 @@ fn short_and_json_are_one_line_each() {
 
 #[test]
 fn line_ends_of_other_systems_change_nothing() {
-    for (name, text) in cases() {
-        let (sources, _, compiled) = run(&name, &text);
-        let (crlf_sources, _, crlf) = run(&name, &text.replace('\n', "\r\n"));
+    for (name, text, (sources, _, compiled)) in said_of_cases() {
+        let (crlf_sources, _, crlf) = run(name, &text.replace('\n', "\r\n"));
         let short = |diagnostics, sources| render(diagnostics, sources, Format::Short, false);
-        assert_eq!(short(&crlf.diagnostics, &crlf_sources), short(&compiled.diagnostics, &sources), "{name}");
-        assert_eq!(human(&crlf.diagnostics, &crlf_sources), human(&compiled.diagnostics, &sources), "{name}");
+        assert_eq!(short(&crlf.diagnostics, &crlf_sources), short(&compiled.diagnostics, sources), "{name}");
+        assert_eq!(human(&crlf.diagnostics, &crlf_sources), human(&compiled.diagnostics, sources), "{name}");
         assert_eq!(crlf.system.is_some(), compiled.system.is_some(), "{name}");
     }
 }

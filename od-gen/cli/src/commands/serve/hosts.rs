@@ -290,7 +290,8 @@ mod tests {
                 break;
             }
         }
-        assert!(hosts.list.is_empty() && longest < Duration::from_millis(500), "{longest:?}");
+        // Who waited for it would wait for ever; a busy machine makes nothing take as long as this.
+        assert!(hosts.list.is_empty() && longest < Duration::from_secs(30), "{longest:?}");
         // What it was sent before it can still have; then comes the end.
         deaf.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
         let mut all = Vec::new();
