@@ -275,7 +275,7 @@ mod tests {
     fn the_rest_of_a_text_is_read_as_before() {
         let bytes = b"\xEF\xBB\xBF[FileInfo]\nDescription=a lamp\n;\xE4\n".as_slice();
         let fixed = fix("lamp.eds", bytes).unwrap();
-        assert_eq!(decode(fixed.to_bytes()).0, fixed.text());
+        assert_eq!(encoding::decode(fixed.to_bytes()).unwrap().0, fixed.text());
         assert!(fix("lamp.eds", &fixed.to_bytes()).unwrap().changes.is_empty());
     }
 

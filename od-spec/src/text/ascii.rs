@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use super::visible::turning;
+
 /// Replaces every character outside printable ASCII by its usual transcription: `ä` → `ae`, `°` → `deg`, `²` → `2`.
 /// What has none becomes `?`.
 pub fn transliterate(text: &str) -> String {
@@ -30,8 +32,10 @@ pub fn in_ascii(text: &str) -> Cow<'_, str> {
 }
 
 /// Whether characters of a text have no transcription, so that [`transliterate`] has a `?` in place of each.
+///
+/// Those that turn the text around them are refused for that.
 pub fn has_lost(text: &str) -> bool {
-    in_ascii(text).matches('?').count() > text.matches('?').count()
+    in_ascii(text).matches('?').count() > text.matches('?').count() + turning(text).count()
 }
 
 /// Whether [`transliterate`] leaves nothing of a name but `?`.
@@ -186,7 +190,10 @@ mod tests {
     #[test]
     fn what_has_no_form_has_a_name_all_the_same() {
         let name = |name| name_in_ascii(name, || "object 2000h".to_owned()).into_owned();
-        assert_eq!(["温 度", "speed?", "?", "温度 1", ""].map(name), ["object 2000h", "speed?", "?", "?? 1", ""]);
+        assert_eq!(
+            ["温 度", "speed?", "?", "温度 1", ""].map(name),
+            ["object 2000h", "speed?", "?", "?? 1", ""]
+        );
         assert_eq!(["温度 1", "speed?", "Größe"].map(has_lost), [true, false, false]);
     }
 

@@ -81,7 +81,8 @@ fn fix_takes_nothing_but_eds_files() {
 fn files_of_others_are_named_and_left_alone() {
     let scratch = Scratch::new("fix-others");
     let odva = "$ adapter\n[File]\n  DescText = \"Adapter\";\n[Device]\n  VendCode = 9999;\n";
-    let gbk = [b"[FileInfo]\nFileName=g.eds\n[2000]\nParameterName=".as_slice(), b"\xCE\xC2\xB6\xC8\n"].concat();
+    let gbk =
+        [b"[FileInfo]\nFileName=g.eds\n[2000]\nParameterName=".as_slice(), b"\xCE\xC2\xB6\xC8\n"].concat();
     scratch.file("odva.eds", odva);
     scratch.file("gbk.eds", &gbk);
     scratch.file("two.eds", "??");
@@ -90,7 +91,8 @@ fn files_of_others_are_named_and_left_alone() {
         ("gbk.eds", "error[OD0102]: the texts of `gbk.eds` are in GBK"),
         ("two.eds", "error[OD0121]: `two.eds` is no EDS or DCF: it has no section"),
     ] {
-        for command in [&["fix", "--write"][..], &["check"], &["build"], &["import"], &["dcf", "--node", "5"]] {
+        for command in [&["fix", "--write"][..], &["check"], &["build"], &["import"], &["dcf", "--node", "5"]]
+        {
             let output = odgen(&scratch.0, &[command, &[file]].concat());
             let told = stderr(&output);
             assert_eq!((code(&output), told.matches("error[").count()), (1, 1), "{command:?}: {told}");

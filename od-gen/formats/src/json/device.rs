@@ -1,6 +1,5 @@
 //! Devices: objects, entries, PDOs.
 
-
 use od_spec::model::{
     self, AnyError, Author, Dictionary, DynamicChannel, Entry, Index, Mapped, Object, Pdo, PdoTarget, Real,
     Value,

@@ -11,8 +11,8 @@ use crate::source::Span;
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
 /// The code of the rule.
-pub const CODE: &Code = &Code {
-    id: "OD0330",
+pub(crate) const CODE: &Code = &Code {
+    id: "OD0846",
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "an EDS loses characters of a name",
