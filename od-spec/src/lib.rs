@@ -40,6 +40,7 @@ pub mod model;
 pub mod names;
 mod node_of_file;
 mod notation;
+mod other_bus;
 mod parameters;
 mod parts;
 pub mod plant;

@@ -16,6 +16,7 @@ mod node;
 mod node_texts;
 mod objects;
 mod shape;
+mod unread;
 mod value;
 
 use super::view::View;
@@ -39,6 +40,7 @@ pub(crate) fn read(view: &View<'_>, name: &str, diagnostics: &mut Diagnostics) -
     let mut node = view.is_dcf.then(|| node::read(view));
     let mut meanings = comments::Meanings::default();
     let objects = objects(view, node.as_mut(), &mut meanings, diagnostics);
+    unread::tell(view, diagnostics);
     let (units, types) = meanings.into_declarations();
     let device = DeviceDecl {
         dynamic_channels: channels::read(view, diagnostics),
