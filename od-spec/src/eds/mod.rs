@@ -5,9 +5,11 @@
 //! read, mended, compared and written back before anybody has understood it.
 
 pub(crate) mod check;
+pub(crate) mod coded;
 pub mod codes;
 pub(crate) mod dates;
 mod document;
+mod edits;
 pub(crate) mod example;
 mod extras;
 mod line;

@@ -8,14 +8,11 @@ use crate::eds::dates::{date, time};
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::{Part, View};
-use crate::model::{DataType, DateTime, Index};
+use crate::model::{BIT_RATES, DataType, DateTime, Index};
 use crate::source::{Span, Spanned};
 
 /// The longest key of a device.
 const LONGEST_KEY: usize = 32;
-
-/// Bit rates that an EDS has keys for, in kbit/s.
-const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
 /// The device. Its key is made from the name of the file.
 pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -> DeviceDecl {

@@ -19,9 +19,6 @@ const CODE: &Code = &Code {
     example: Some(Example::eds("[DeviceInfo]\nBaudRate_125=0\n; ...", "[DeviceInfo]\nBaudRate_125=1\n; ...")),
 };
 
-/// The bit rates of CiA 301, in kbit/s.
-pub(in crate::eds::check) const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
-
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let Some(part) = view.section(Topic::DeviceInfo) else { return };
     // A rate that cannot be read is said already; one of another speed is a rate all the same.
