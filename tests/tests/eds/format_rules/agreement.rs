@@ -48,6 +48,9 @@ const TEXTS: &[&str] = &[
     "[2000]\nParameterName=a\nObjectType=0x8\nDataType=5\nAccessType=ro\nCompactSubObj=3u\n[2000Name]\nNrOf Entries=1\n2=b",
     // Numbers and words.
     "[DeviceInfo]\nGranularity=+8\nProductNumber=\"7\"\nSimpleBootUpSlave=true\n; ...",
+    "[DeviceInfo]\nNrOfTXPDO=0\nCompactPDO=0x3\n; ...\n[1801]\nParameterName=a\nObjectType=9\nSubNumber=2\n\
+     [1801sub0]\nParameterName=n\nDataType=5\nAccessType=const\nDefaultValue=1\n\
+     [1801sub1]\nParameterName=b\nDataType=7\nAccessType=rw\nDefaultValue=$NODEID+0x280",
     "[DeviceComissioning]\nNodeID=\"9\"\nBaudrate=500000",
     "[DeviceComissioning]\nNodeID=9\nBaudrate=500K",
     "[DeviceCommissioning]\nNodeID=9\nBaudrate=1 Mbit/s",
@@ -65,6 +68,7 @@ const TEXTS: &[&str] = &[
     var!("DataType=0x0007\nAccessType=rw\nDefaultValue=0x180 + $NodeID\nParameterValue=\"5\" ; why"),
     var!("DataType=0x0007\nAccessType=rw\nDefaultValue=\"0x1Fu\" ; why\nParameterValue=\"5u\""),
     var!("DataType=0x0001\nAccessType=rw\nDefaultValue=True"),
+    var!("DataType=0x0005\nAccessType=RWW\nPDOMapping=1"),
     var!("DataType=0x0005\nAccessType=rw\nDefaultValue=3.0"),
     var!("DataType=0x000A\nAccessType=rw\nDefaultValue=0x01 A1"),
 ];
