@@ -19,7 +19,7 @@ const CODE: &Code = &Code {
         understand `500000` or `500K`; 500 is meant, and taken.",
     clause: Some("CiA 306 5.3"),
     example: Some(Example::dcf(
-        "[DeviceComissioning]\nNodeID=1\nBaudrate=500000",
+        "[DeviceComissioning]\nNodeID=1\nBaudrate=125000",
         "[DeviceComissioning]\nNodeID=1\nBaudrate=125",
     )),
 };
