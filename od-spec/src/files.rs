@@ -4,8 +4,9 @@ use std::path::Path;
 
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Label, codes, shorten};
+use crate::encoding::Encoding;
 use crate::source::{FileId, SourceMap, Span, Spanned};
-use crate::{eds, encoding, xdd};
+use crate::{eds, encoding, other_bus, xdd};
 
 /// Largest file that is read, in bytes.
 const LARGEST_FILE: usize = 64 << 20;
@@ -60,22 +61,40 @@ pub(crate) fn twice(what: &str, first: Span, again: &Spanned<String>) -> Diagnos
 /// Adds the bytes of a file: a specification in UTF-8, or an EDS or DCF in whatever it is.
 ///
 /// # Errors
-/// As [`read_text`], but for the encoding of an EDS.
+/// As [`read_text`]; of an EDS, the code page is one that is not read (OD0102), or it is none of CANopen (OD0121).
 pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result<FileId, Box<Diagnostic>> {
     if bytes.len() <= LARGEST_FILE {
         if eds::has_eds_name(name) || xdd::has_xdd_name(name) {
-            let (text, encoding) = encoding::decode(bytes);
+            let (text, encoding) = decode(name, bytes)?;
             return Ok(sources.add_decoded(name, text, encoding));
         }
         // Where the name says nothing, the text does; what is UTF-8 needs no look at it yet.
         if std::str::from_utf8(&bytes).is_err() {
-            let (text, encoding) = encoding::decode(bytes.clone());
-            if eds::is_eds(name, &text) || xdd::is_xdd(name, &text) {
+            if let Ok((text, encoding)) = encoding::decode(bytes.clone())
+                && (eds::is_eds(name, &text) || xdd::is_xdd(name, &text))
+            {
                 return Ok(sources.add_decoded(name, text, encoding));
             }
         }
     }
     Ok(sources.add(name, read_text(name, bytes)?))
+}
+
+/// The text of a file that is named as an EDS, DCF, XDD or XDC.
+///
+/// # Errors
+/// Its code page is one that is not read (OD0102), or it is something else than its name says (OD0121).
+pub(crate) fn decode(name: &str, bytes: Vec<u8>) -> Result<(String, Encoding), Box<Diagnostic>> {
+    let read = encoding::decode(bytes).map_err(|page| {
+        let (page, iconv) = (page.name(), page.name().to_lowercase());
+        let message = format!("the texts of `{name}` are in {page}, in which a character has two bytes");
+        let help = format!("save it as UTF-8, for example with `iconv -f {iconv} -t utf-8`");
+        Box::new(Diagnostic::without_place(codes::NOT_UTF8, message).help(help))
+    })?;
+    match other_bus::refusal(name, &read.0) {
+        Some(refusal) => Err(refusal),
+        None => Ok(read),
+    }
 }
 
 /// Checks the bytes of a source file: size and UTF-8. A byte order mark is dropped.

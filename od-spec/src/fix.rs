@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::compile::findings;
-use crate::diag::{Code, Diagnostics, Edit, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Severity};
 use crate::eds::check::BYTE_ORDER_MARK;
-use crate::encoding::{Encoding, decode, encode};
+use crate::encoding::{self, Encoding, encode};
+use crate::files::decode;
 use crate::source::{FileId, SourceMap};
 
 /// Most rounds of changes: each may make room for others, such as the first entry of a list that was missing.
@@ -67,13 +68,16 @@ impl Fixed {
 /// ```
 /// use od_spec::fix;
 ///
-/// let fixed = fix("lamp.eds", b"# nothing to say\n[comments]\nLines = 1\n");
+/// let fixed = fix("lamp.eds", b"# nothing to say\n[comments]\nLines = 1\n").unwrap();
 /// assert!(fixed.text().starts_with("; nothing to say\n[Comments]\nLines=0\n"));
-/// let again = fix("lamp.eds", &fixed.to_bytes());
+/// let again = fix("lamp.eds", &fixed.to_bytes()).unwrap();
 /// assert!(again.changes.is_empty());
 /// ```
-pub fn fix(name: &str, bytes: &[u8]) -> Fixed {
-    let (text, encoding) = decode(bytes.to_vec());
+///
+/// # Errors
+/// The code page of the file is one that is not read (OD0102), or it is none of CANopen (OD0121).
+pub fn fix(name: &str, bytes: &[u8]) -> Result<Fixed, Box<Diagnostic>> {
+    let (text, encoding) = decode(name, bytes.to_vec())?;
     let mut fixed = rounds(name, text, encoding, findings);
     // A mark in front of the text, or two bytes for each character, are no part of the text.
     if fixed.text().is_ascii() && fixed.encoding != Encoding::Ascii {
@@ -86,7 +90,7 @@ pub fn fix(name: &str, bytes: &[u8]) -> Fixed {
         fixed.file = fixed.sources.add_decoded(name, text, Encoding::Ascii);
         fixed.left = findings(&fixed.sources, fixed.file);
     }
-    fixed
+    Ok(fixed)
 }
 
 /// Changes a text as long as something is found that can be changed.
@@ -121,7 +125,8 @@ fn rounds(
 /// Whether the bytes of a text stand for that text. How characters are stored is a guess where nothing says it, and may become
 /// another guess when some of them are gone.
 fn is_read_alike(text: &str, encoding: Encoding) -> bool {
-    text.is_ascii() || encode(text, encoding).is_ok_and(|bytes| decode(bytes).0 == text)
+    let stands_for_it = |bytes| encoding::decode(bytes).is_ok_and(|(again, _)| again == text);
+    text.is_ascii() || encode(text, encoding).is_ok_and(stands_for_it)
 }
 
 fn errors(diagnostics: &Diagnostics) -> usize {
@@ -269,9 +274,9 @@ mod tests {
     #[test]
     fn the_rest_of_a_text_is_read_as_before() {
         let bytes = b"\xEF\xBB\xBF[FileInfo]\nDescription=a lamp\n;\xE4\n".as_slice();
-        let fixed = fix("lamp.eds", bytes);
-        assert_eq!(decode(fixed.to_bytes()).0, fixed.text());
-        assert!(fix("lamp.eds", &fixed.to_bytes()).changes.is_empty());
+        let fixed = fix("lamp.eds", bytes).unwrap();
+        assert_eq!(encoding::decode(fixed.to_bytes()).unwrap().0, fixed.text());
+        assert!(fix("lamp.eds", &fixed.to_bytes()).unwrap().changes.is_empty());
     }
 
     #[test]

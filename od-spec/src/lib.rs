@@ -39,6 +39,7 @@ mod limits;
 pub mod model;
 pub mod names;
 mod notation;
+mod other_bus;
 mod parameters;
 mod parts;
 pub mod plant;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use od_spec::diag::codes::XDD_LEFT_OUT;
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
-use od_spec::eds::codes::{LINKS_OF_NOTHING, MODULES, NO_INDEX, NO_PLACE, OBJECT_LEFT_OUT};
+use od_spec::eds::codes::{LINKS_OF_NOTHING, MODULES, NO_INDEX, NO_PLACE, OBJECT_LEFT_OUT, UNREAD};
 use od_spec::eds::{Document, Owner};
 use od_spec::model::{Dictionary, ObjectKind, System};
 use od_spec::source::{FileId, SourceMap, Spanned};
@@ -32,7 +32,8 @@ pub struct Imported {
 
 /// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, links of nothing, values without a
 /// place.
-const WITHOUT_PLACE: [&Code; 5] = [OBJECT_LEFT_OUT, MODULES, LINKS_OF_NOTHING, NO_PLACE, XDD_LEFT_OUT];
+const WITHOUT_PLACE: [&Code; 6] =
+    [OBJECT_LEFT_OUT, MODULES, LINKS_OF_NOTHING, NO_PLACE, UNREAD, XDD_LEFT_OUT];
 
 /// Writes the specification of a compiled EDS or DCF. `None` where there is no model.
 ///

@@ -115,7 +115,7 @@ fn fix_all(snapshot: &Snapshot, uri: &Uri) -> Option<CodeAction> {
         return None;
     }
     let file = snapshot.now.sources.file(snapshot.file);
-    let fixed = fix(file.name(), file.text().as_bytes());
+    let fixed = fix(file.name(), file.text().as_bytes()).ok()?;
     let changes = between(file.text(), fixed.text());
     (!changes.is_empty()).then(|| CodeAction {
         title: "Put right everything that needs no decision".to_owned(),

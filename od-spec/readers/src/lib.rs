@@ -77,7 +77,14 @@ fn refusals(file: FileId, source: &SourceFile) -> Vec<Refusal> {
 fn not_in_utf8(source: &SourceFile) -> Option<Place> {
     match source.encoding() {
         Encoding::Ascii | Encoding::Utf8 | Encoding::Utf8WithMark => None,
-        Encoding::Utf16Le | Encoding::Utf16Be | Encoding::Windows1252 | Encoding::Cp850 | Encoding::Cp437 => {
+        Encoding::Utf16Le
+        | Encoding::Utf16Be
+        | Encoding::Utf16LeUnmarked
+        | Encoding::Utf16BeUnmarked
+        | Encoding::Windows1252
+        | Encoding::Windows1251
+        | Encoding::Cp850
+        | Encoding::Cp437 => {
             let start = source.text().find(|c: char| !c.is_ascii()).unwrap_or(0);
             let length = source.text()[start..].chars().next().map_or(0, char::len_utf8);
             Some(Place { start, end: start + length })

@@ -68,6 +68,8 @@ codes! {
         "A file with `part-of:` holds sections of another file; units, types and devices that it refers to may stand there. Compile that file, which names its parts under `parts:`. `odgen` does so by itself when it is given a part and finds the specification."
     NO_SPECIFICATION Error "OD0120" "a parameter or plant file in the place of a specification":
         "A file that begins with `od-parameters:` says how one device is set up, one that begins with `od-plant:` which nodes a plant has. Neither describes a device: both are read beside the specification that does. `odgen dcf SPEC --params FILE --explain` checks a parameter file without writing anything, `odgen plant check FILE` a plant. `odgen fmt` lays out all three."
+    OTHER_BUS Error "OD0121" "a file of something else than CANopen":
+        "Other fieldbuses have files of the same names: an EDS of EtherNet/IP or DeviceNet has the sections [File] and [Device], an XDD of POWERLINK a body for its own network. Nothing is read of them, written from them or put right in them. A file that is named as an EDS and has no section is none either."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
         "A key that the language does not have at this place. Nothing is ignored silently: a misspelt `acces: ro` would otherwise change an access right. `odgen reference` lists all keys."
     WRONG_KIND Error "OD0202" "a value of the wrong kind":

@@ -81,4 +81,6 @@ codes! {
         "Values and limits of DOMAIN, time and text entries, limits that depend on the node-ID and reference designations (`ParamRefd`) are not kept: the dictionary has no place for them. Parameter values, application names (`Denotation`) and the files of DOMAINs belong to a node, and have a place in a DCF only. What has none is left out of what is made from the file."
     LIMIT_ON_TYPE Warning Warning "EDS513" "CiA 306 4.6.3.2" "a limit where none can be":
         "Only numbers have limits. Those of texts, byte blocks and BOOLEANs are left out."
+    UNREAD Warning Warning "EDS514" "CiA 306 4.5, 4.6.3.2 and 5.3" "a key that is not kept":
+        "CANopen Safety (`SRDOMapping`, `InvertedSRAD`, `CANopenSafetySupported`), node guarding as the device states it (`NG_Slave`, `NG_Master`) and reference designations of a node have no place in the dictionary: files that are made from this one do without. A safety device whose EDS lacks them cannot be set up; keep the maker's file for that."
 }

@@ -1,5 +1,6 @@
 //! Objects and their entries.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::{
@@ -7,6 +8,7 @@ use super::{
     NamedType, Outside, PdoMapping, Ratio, Real, Rounding, Statement, Storage, SubIndex, Text, TypeKind,
     Unit, Value,
 };
+use crate::ascii::name_in_ascii;
 use crate::source::{Span, Spanned};
 
 /// Shape of an object (CiA 301 table 37).
@@ -101,6 +103,20 @@ pub struct Object {
 }
 
 impl Object {
+    /// The name in an EDS, which is ASCII: transcribed, or the number where it has no form.
+    pub fn eds_name(&self) -> Cow<'_, str> {
+        name_in_ascii(&self.name, || format!("object {}", self.index))
+    }
+
+    /// [`eds_name`](Self::eds_name) of one of its entries: in a VAR or DOMAIN, that of the object.
+    pub fn eds_name_of<'o>(&'o self, entry: &'o Entry) -> Cow<'o, str> {
+        if self.is_structured() {
+            name_in_ascii(&entry.name, || format!("entry {}", entry.sub))
+        } else {
+            self.eds_name()
+        }
+    }
+
     /// The entry at a sub-index.
     pub fn entry(&self, sub: SubIndex) -> Option<&Entry> {
         self.entries.binary_search_by_key(&sub, |entry| entry.sub).ok().map(|at| &self.entries[at])

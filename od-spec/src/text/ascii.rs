@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use super::visible::turning;
+
 /// Replaces every character outside printable ASCII by its usual transcription: `ä` → `ae`, `°` → `deg`, `²` → `2`.
 /// What has none becomes `?`.
 pub fn transliterate(text: &str) -> String {
@@ -29,6 +31,23 @@ pub fn in_ascii(text: &str) -> Cow<'_, str> {
     }))
 }
 
+/// Whether characters of a text have no transcription, so that [`transliterate`] has a `?` in place of each.
+///
+/// Those that turn the text around them are refused for that.
+pub fn has_lost(text: &str) -> bool {
+    in_ascii(text).matches('?').count() > text.matches('?').count() + turning(text).count()
+}
+
+/// Whether [`transliterate`] leaves nothing of a name but `?`.
+pub fn has_no_form(name: &str) -> bool {
+    has_lost(name) && in_ascii(name).chars().all(|c| matches!(c, '?' | ' '))
+}
+
+/// The name of an object or entry in ASCII; `otherwise` stands for one that has no form in it.
+pub fn name_in_ascii(name: &str, otherwise: impl FnOnce() -> String) -> Cow<'_, str> {
+    if has_no_form(name) { Cow::Owned(otherwise()) } else { in_ascii(name) }
+}
+
 const fn transcription(c: char) -> &'static str {
     match c {
         'ä' => "ae",
@@ -49,10 +68,35 @@ const fn transcription(c: char) -> &'static str {
         'ù' | 'ú' | 'û' => "u",
         'Ù' | 'Ú' | 'Û' => "U",
         'ý' | 'ÿ' => "y",
-        'ç' => "c",
-        'Ç' => "C",
-        'ñ' => "n",
-        'Ñ' => "N",
+        'Ý' | 'Ÿ' => "Y",
+        'ç' | 'č' | 'ć' => "c",
+        'Ç' | 'Č' | 'Ć' => "C",
+        'ñ' | 'ň' | 'ń' => "n",
+        'Ñ' | 'Ň' | 'Ń' => "N",
+        'ą' | 'ă' => "a",
+        'Ą' | 'Ă' => "A",
+        'ď' | 'đ' => "d",
+        'Ď' | 'Đ' => "D",
+        'ě' | 'ę' | 'ė' => "e",
+        'Ě' | 'Ę' | 'Ė' => "E",
+        'ğ' => "g",
+        'Ğ' => "G",
+        'ı' => "i",
+        'İ' => "I",
+        'ł' | 'ľ' | 'ĺ' => "l",
+        'Ł' | 'Ľ' | 'Ĺ' => "L",
+        'ő' => "o",
+        'Ő' => "O",
+        'ř' | 'ŕ' => "r",
+        'Ř' | 'Ŕ' => "R",
+        'š' | 'ś' | 'ş' | 'ș' => "s",
+        'Š' | 'Ś' | 'Ş' | 'Ș' => "S",
+        'ť' | 'ţ' | 'ț' => "t",
+        'Ť' | 'Ţ' | 'Ț' => "T",
+        'ů' | 'ű' => "u",
+        'Ů' | 'Ű' => "U",
+        'ž' | 'ź' | 'ż' => "z",
+        'Ž' | 'Ź' | 'Ż' => "Z",
         'æ' => "ae",
         'Æ' => "Ae",
         'œ' => "oe",
@@ -78,17 +122,86 @@ const fn transcription(c: char) -> &'static str {
         '¾' => "3/4",
         '‰' => "per mille",
         '€' => "EUR",
+        'а' => "a",
+        'А' => "A",
+        'б' => "b",
+        'Б' => "B",
+        'в' => "v",
+        'В' => "V",
+        'г' => "g",
+        'Г' => "G",
+        'д' => "d",
+        'Д' => "D",
+        'е' | 'ё' | 'э' => "e",
+        'Е' | 'Ё' | 'Э' => "E",
+        'ж' => "zh",
+        'Ж' => "Zh",
+        'з' => "z",
+        'З' => "Z",
+        'и' => "i",
+        'И' => "I",
+        'й' | 'ы' => "y",
+        'Й' | 'Ы' => "Y",
+        'к' => "k",
+        'К' => "K",
+        'л' => "l",
+        'Л' => "L",
+        'м' => "m",
+        'М' => "M",
+        'н' => "n",
+        'Н' => "N",
+        'о' => "o",
+        'О' => "O",
+        'п' => "p",
+        'П' => "P",
+        'р' => "r",
+        'Р' => "R",
+        'с' => "s",
+        'С' => "S",
+        'т' => "t",
+        'Т' => "T",
+        'у' => "u",
+        'У' => "U",
+        'ф' => "f",
+        'Ф' => "F",
+        'х' => "kh",
+        'Х' => "Kh",
+        'ц' => "ts",
+        'Ц' => "Ts",
+        'ч' => "ch",
+        'Ч' => "Ch",
+        'ш' => "sh",
+        'Ш' => "Sh",
+        'щ' => "shch",
+        'Щ' => "Shch",
+        'ъ' | 'Ъ' | 'ь' | 'Ь' => "",
+        'ю' => "yu",
+        'Ю' => "Yu",
+        'я' => "ya",
+        'Я' => "Ya",
         _ => "?",
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::transliterate;
+    use super::{has_lost, name_in_ascii, transliterate};
+
+    #[test]
+    fn what_has_no_form_has_a_name_all_the_same() {
+        let name = |name| name_in_ascii(name, || "object 2000h".to_owned()).into_owned();
+        assert_eq!(
+            ["温 度", "speed?", "?", "温度 1", ""].map(name),
+            ["object 2000h", "speed?", "?", "?? 1", ""]
+        );
+        assert_eq!(["温度 1", "speed?", "Größe"].map(has_lost), [true, false, false]);
+    }
 
     #[test]
     fn ascii_stays_and_the_rest_is_transcribed() {
         assert_eq!(transliterate("Größe: 50.0 °C…\t5 µs²"), "Groesse: 50.0 degC... 5 us2");
+        assert_eq!(transliterate("Příliš żółty Đ"), "Prilis zolty D");
+        assert_eq!(transliterate("Скорость, Ёж"), "Skorost, Ezh");
         assert_eq!(transliterate("日"), "?");
         assert!(transliterate("\u{0}\u{7f}ä").is_ascii());
     }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::fit::fit;
+
 /// How the characters of a text are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Encoding {
@@ -15,8 +17,14 @@ pub enum Encoding {
     Utf16Le,
     /// UTF-16, high byte first, behind a byte order mark.
     Utf16Be,
+    /// UTF-16, low byte first, without a byte order mark.
+    Utf16LeUnmarked,
+    /// UTF-16, high byte first, without a byte order mark.
+    Utf16BeUnmarked,
     /// Windows-1252, the Western code page of Windows.
     Windows1252,
+    /// Windows-1251, the Cyrillic code page of Windows.
+    Windows1251,
     /// Code page 850, the Western one of DOS.
     Cp850,
     /// Code page 437, the first one of DOS.
@@ -32,7 +40,10 @@ impl Encoding {
             Encoding::Utf8WithMark => "UTF-8 with a byte order mark",
             Encoding::Utf16Le => "UTF-16 LE",
             Encoding::Utf16Be => "UTF-16 BE",
+            Encoding::Utf16LeUnmarked => "UTF-16 LE without a byte order mark",
+            Encoding::Utf16BeUnmarked => "UTF-16 BE without a byte order mark",
             Encoding::Windows1252 => "Windows-1252",
+            Encoding::Windows1251 => "Windows-1251",
             Encoding::Cp850 => "code page 850",
             Encoding::Cp437 => "code page 437",
         }
@@ -42,14 +53,27 @@ impl Encoding {
     const fn upper_half(self) -> Option<&'static str> {
         match self {
             Encoding::Windows1252 => Some(WINDOWS_1252),
+            Encoding::Windows1251 => Some(WINDOWS_1251),
             Encoding::Cp850 => Some(CP850),
             Encoding::Cp437 => Some(CP437),
             Encoding::Ascii
             | Encoding::Utf8
             | Encoding::Utf8WithMark
             | Encoding::Utf16Le
-            | Encoding::Utf16Be => None,
+            | Encoding::Utf16Be
+            | Encoding::Utf16LeUnmarked
+            | Encoding::Utf16BeUnmarked => None,
         }
+    }
+
+    /// The characters of bytes in a code page.
+    pub(super) fn characters(self, bytes: &[u8]) -> Vec<char> {
+        let upper: Vec<char> = self.upper_half().unwrap_or_default().chars().collect();
+        let character = |byte: &u8| match byte.checked_sub(0x80) {
+            Some(at) => upper.get(usize::from(at)).copied().unwrap_or(char::REPLACEMENT_CHARACTER),
+            None => char::from(*byte),
+        };
+        bytes.iter().map(character).collect()
     }
 }
 
@@ -59,28 +83,128 @@ impl fmt::Display for Encoding {
     }
 }
 
-/// The text that bytes stand for, and how they do. Every sequence of bytes stands for one, and [`encode`] gives it back.
-///
-/// What is neither UTF-8 nor marked as UTF-16 is read in the code page that fits best.
-pub fn decode(bytes: Vec<u8>) -> (String, Encoding) {
-    if let Some(text) = utf16(&bytes) {
-        return text;
-    }
-    match String::from_utf8(bytes) {
-        Ok(text) => match text.strip_prefix('\u{FEFF}') {
-            Some(text) => (text.to_owned(), Encoding::Utf8WithMark),
-            None if text.is_ascii() => (text, Encoding::Ascii),
-            None => (text, Encoding::Utf8),
-        },
-        Err(error) => {
-            let bytes = error.as_bytes();
-            // The first of equals wins.
-            let pages = [Encoding::Cp437, Encoding::Cp850, Encoding::Windows1252];
-            let page = pages.into_iter().max_by_key(|page| fit(bytes, *page));
-            let page = page.unwrap_or(Encoding::Windows1252);
-            (in_code_page(bytes, page), page)
+/// Code pages that are recognised and not read: a character has two bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unread {
+    /// GBK of Chinese systems, or one that looks the same: EUC-KR, EUC-JP.
+    Gbk,
+    /// Shift-JIS of Japanese systems.
+    ShiftJis,
+}
+
+impl Unread {
+    /// The usual name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Unread::Gbk => "GBK",
+            Unread::ShiftJis => "Shift-JIS",
         }
     }
+}
+
+/// Code pages of Western languages. The first of those that fit equally well is taken.
+const WESTERN: [Encoding; 3] = [Encoding::Windows1252, Encoding::Cp850, Encoding::Cp437];
+
+/// The text that bytes stand for, and how they do; [`encode`] gives the same bytes back.
+///
+/// What is neither UTF-8 nor UTF-16 is read in the code page that fits best.
+///
+/// # Errors
+/// The bytes are of a code page that is not read.
+pub fn decode(bytes: Vec<u8>) -> Result<(String, Encoding), Unread> {
+    if let Some(text) = utf16(&bytes) {
+        return Ok(text);
+    }
+    let bytes = match String::from_utf8(bytes) {
+        Ok(text) => {
+            return Ok(match text.strip_prefix('\u{FEFF}') {
+                Some(text) => (text.to_owned(), Encoding::Utf8WithMark),
+                None if text.is_ascii() => (text, Encoding::Ascii),
+                None => (text, Encoding::Utf8),
+            });
+        }
+        Err(error) => error.into_bytes(),
+    };
+    let page = if is_cyrillic(&bytes) {
+        Encoding::Windows1251
+    } else if let Some(unread) = in_pairs(&bytes) {
+        return Err(unread);
+    } else {
+        best(&bytes)
+    };
+    Ok((page.characters(&bytes).into_iter().collect(), page))
+}
+
+/// The Western code page that fits best.
+fn best(bytes: &[u8]) -> Encoding {
+    let [first, rest @ ..] = WESTERN;
+    let mut best = (fit(bytes, first), first);
+    for page in rest {
+        let points = fit(bytes, page);
+        if points > best.0 {
+            best = (points, page);
+        }
+    }
+    best.1
+}
+
+/// Another code page that as much speaks for as for the one in which a text is stored.
+pub fn as_likely(text: &str, encoding: Encoding) -> Option<Encoding> {
+    if !WESTERN.contains(&encoding) {
+        return None;
+    }
+    let bytes = encode(text, encoding).ok()?;
+    let points = fit(&bytes, encoding);
+    let differs = |page: &Encoding| !page.characters(&bytes).into_iter().eq(text.chars());
+    WESTERN.into_iter().find(|page| fit(&bytes, *page) == points && differs(page))
+}
+
+/// Whether the bytes that are not ASCII are Russian words: runs of letters of which most are small.
+fn is_cyrillic(bytes: &[u8]) -> bool {
+    let is_letter = |byte: u8| matches!(byte, 0xC0..=0xFF | 0xA8 | 0xB8);
+    let (mut letters, mut small, mut in_runs) = (0_usize, 0_usize, 0_usize);
+    for run in bytes.split(u8::is_ascii).filter(|run| !run.is_empty()) {
+        if !run.iter().all(|byte| is_letter(*byte)) {
+            return false;
+        }
+        letters += run.len();
+        small += run.iter().filter(|byte| **byte >= 0xE0).count();
+        in_runs += if run.len() >= 3 { run.len() } else { 0 };
+    }
+    letters > 0 && in_runs * 4 >= letters * 3 && small * 2 > letters
+}
+
+/// The code page in which two bytes make a character, if the text has words of it: characters side by side.
+fn in_pairs(bytes: &[u8]) -> Option<Unread> {
+    // Each ends where it is none of the code page; a Western text does so soon, or has each pair alone between ASCII.
+    let are_words = |is_pair: fn(u8, u8) -> bool| {
+        let (mut pairs, mut side_by_side, mut at) = (0_usize, 0_usize, 0);
+        let mut before = false;
+        while let Some(first) = bytes.get(at) {
+            if first.is_ascii() {
+                before = false;
+                at += 1;
+                continue;
+            }
+            let after = bytes.get(at + 2).is_some_and(|next| !next.is_ascii());
+            if !bytes.get(at + 1).is_some_and(|second| is_pair(*first, *second)) {
+                return false;
+            }
+            pairs += 1;
+            side_by_side += usize::from(before || after);
+            before = true;
+            at += 2;
+        }
+        pairs >= 2 && side_by_side * 5 >= pairs * 4
+    };
+    let gb2312 = |first, second| matches!(first, 0xA1..=0xF7) && matches!(second, 0xA1..=0xFE);
+    let shift_jis = |first, second| {
+        matches!(first, 0x81..=0x9F | 0xE0..=0xEF) && matches!(second, 0x40..=0x7E | 0x80..=0xFC)
+    };
+    let gbk = |first, second| matches!(first, 0x81..=0xFE) && matches!(second, 0x40..=0x7E | 0x80..=0xFE);
+    let pages: [(fn(u8, u8) -> bool, Unread); 3] =
+        [(gb2312, Unread::Gbk), (shift_jis, Unread::ShiftJis), (gbk, Unread::Gbk)];
+    pages.into_iter().find(|(is_pair, _)| are_words(*is_pair)).map(|(_, page)| page)
 }
 
 /// The bytes of a text in an encoding; the character that cannot be written in it.
@@ -88,15 +212,21 @@ pub fn decode(bytes: Vec<u8>) -> (String, Encoding) {
 /// # Errors
 /// The first character that the encoding does not have.
 pub fn encode(text: &str, encoding: Encoding) -> Result<Vec<u8>, char> {
-    let utf16 = |mark: [u8; 2], bytes: fn(u16) -> [u8; 2]| {
-        mark.into_iter().chain(text.encode_utf16().flat_map(bytes)).collect()
+    let utf16 = |mark: &[u8], bytes: fn(u16) -> [u8; 2]| {
+        mark.iter().copied().chain(text.encode_utf16().flat_map(bytes)).collect()
     };
     match encoding {
         Encoding::Utf8 => Ok(text.as_bytes().to_vec()),
         Encoding::Utf8WithMark => Ok(format!("\u{FEFF}{text}").into_bytes()),
-        Encoding::Utf16Le => Ok(utf16([0xFF, 0xFE], u16::to_le_bytes)),
-        Encoding::Utf16Be => Ok(utf16([0xFE, 0xFF], u16::to_be_bytes)),
-        Encoding::Ascii | Encoding::Windows1252 | Encoding::Cp850 | Encoding::Cp437 => {
+        Encoding::Utf16Le => Ok(utf16(&[0xFF, 0xFE], u16::to_le_bytes)),
+        Encoding::Utf16Be => Ok(utf16(&[0xFE, 0xFF], u16::to_be_bytes)),
+        Encoding::Utf16LeUnmarked => Ok(utf16(&[], u16::to_le_bytes)),
+        Encoding::Utf16BeUnmarked => Ok(utf16(&[], u16::to_be_bytes)),
+        Encoding::Ascii
+        | Encoding::Windows1252
+        | Encoding::Windows1251
+        | Encoding::Cp850
+        | Encoding::Cp437 => {
             let upper = encoding.upper_half().unwrap_or_default();
             let byte = |c: char| match u8::try_from(u32::from(c)) {
                 Ok(byte) if byte < 0x80 => Ok(byte),
@@ -110,48 +240,36 @@ pub fn encode(text: &str, encoding: Encoding) -> Result<Vec<u8>, char> {
     }
 }
 
-/// UTF-16, if the bytes are marked as that and are nothing else.
+/// UTF-16, if the bytes are marked as that and are nothing else, or are ASCII in every second byte for the most part.
 fn utf16(bytes: &[u8]) -> Option<(String, Encoding)> {
-    let (encoding, unit): (_, fn([u8; 2]) -> u16) = match bytes {
-        [0xFF, 0xFE, ..] => (Encoding::Utf16Le, u16::from_le_bytes),
-        [0xFE, 0xFF, ..] => (Encoding::Utf16Be, u16::from_be_bytes),
-        _ => return None,
+    let little: fn([u8; 2]) -> u16 = u16::from_le_bytes;
+    let big: fn([u8; 2]) -> u16 = u16::from_be_bytes;
+    let (encoding, unit, rest) = match bytes {
+        [0xFF, 0xFE, rest @ ..] => (Encoding::Utf16Le, little, rest),
+        [0xFE, 0xFF, rest @ ..] => (Encoding::Utf16Be, big, rest),
+        _ => {
+            let zeros = |from: usize| bytes.iter().skip(from).step_by(2).filter(|byte| **byte == 0).count();
+            let most = bytes.len() / 2;
+            match (zeros(0), zeros(1)) {
+                (0, low) if low * 2 > most => (Encoding::Utf16LeUnmarked, little, bytes),
+                (high, 0) if high * 2 > most => (Encoding::Utf16BeUnmarked, big, bytes),
+                _ => return None,
+            }
+        }
     };
-    let (units, rest) = bytes.get(2..)?.as_chunks::<2>();
+    let (units, rest) = rest.as_chunks::<2>();
     let text =
         char::decode_utf16(units.iter().map(|pair| unit(*pair))).collect::<Result<String, _>>().ok()?;
     rest.is_empty().then_some((text, encoding))
-}
-
-/// How well a code page fits: letters stand beside letters, and degrees, squares and per mille behind a number or a blank.
-fn fit(bytes: &[u8], page: Encoding) -> usize {
-    let upper: Vec<char> = page.upper_half().unwrap_or_default().chars().collect();
-    let points = |at: usize, byte: u8| {
-        let Some(c) = usize::from(byte).checked_sub(0x80).and_then(|at| upper.get(at)) else { return 0 };
-        let before = at.checked_sub(1).and_then(|at| bytes.get(at));
-        let is_letter = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_alphabetic);
-        match c {
-            '°' | '²' | '³' | 'µ' | '‰' | '€' if before.is_some() => 2,
-            c if c.is_alphabetic() => usize::from(is_letter(before) || is_letter(bytes.get(at + 1))),
-            _ => 0,
-        }
-    };
-    bytes.iter().enumerate().map(|(at, byte)| points(at, *byte)).sum()
-}
-
-fn in_code_page(bytes: &[u8], page: Encoding) -> String {
-    let upper: Vec<char> = page.upper_half().unwrap_or_default().chars().collect();
-    let decoded = |byte: &u8| match usize::from(*byte).checked_sub(0x80) {
-        Some(at) => upper.get(at).copied().unwrap_or(char::REPLACEMENT_CHARACTER),
-        None => char::from(*byte),
-    };
-    bytes.iter().map(decoded).collect()
 }
 
 /// The five bytes without a character are the control characters of their numbers.
 const WINDOWS_1252: &str = "€\u{81}‚ƒ„…†‡ˆ‰Š‹Œ\u{8D}Ž\u{8F}\u{90}‘’“”•–—˜™š›œ\u{9D}žŸ\
     \u{A0}¡¢£¤¥¦§¨©ª«¬\u{AD}®¯°±²³´µ¶·¸¹º»¼½¾¿\
     ÀÁÂÃÄÅÆÇÈÉÊËÌÍÎÏÐÑÒÓÔÕÖ×ØÙÚÛÜÝÞßàáâãäåæçèéêëìíîïðñòóôõö÷øùúûüýþÿ";
+const WINDOWS_1251: &str = "ЂЃ‚ѓ„…†‡€‰Љ‹ЊЌЋЏђ‘’“”•–—\u{98}™љ›њќћџ\
+    \u{A0}ЎўЈ¤Ґ¦§Ё©Є«¬\u{AD}®Ї°±Ііґµ¶·ё№є»јЅѕї\
+    АБВГДЕЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯабвгдежзийклмнопрстуфхцчшщъыьэюя";
 const CP850: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜø£Ø×ƒáíóúñÑªº¿®¬½¼¡«»░▒▓│┤ÁÂÀ©╣║╗╝¢¥┐\
     └┴┬├─┼ãÃ╚╔╩╦╠═╬¤ðÐÊËÈıÍÎÏ┘┌█▄¦Ì▀ÓßÔÒõÕµþÞÚÛÙýÝ¯´\u{AD}±‗¾¶§÷¸°¨·¹³²■\u{A0}";
 const CP437: &str = "ÇüéâäàåçêëèïîìÄÅÉæÆôöòûùÿÖÜ¢£¥₧ƒáíóúñÑªº¿⌐¬½¼¡«»░▒▓│┤╡╢╖╕╣║╗╝╜╛┐\
@@ -163,9 +281,9 @@ mod tests {
 
     #[test]
     fn a_code_page_gives_each_byte_a_character_of_its_own() {
-        for page in [Encoding::Windows1252, Encoding::Cp850, Encoding::Cp437] {
+        for page in WESTERN.into_iter().chain([Encoding::Windows1251]) {
             let all: Vec<u8> = (0..=255).collect();
-            let text = in_code_page(&all, page);
+            let text: String = page.characters(&all).into_iter().collect();
             assert_eq!(text.chars().count(), 256, "{page}");
             assert_eq!(encode(&text, page).as_deref(), Ok(all.as_slice()), "{page}");
         }
@@ -183,9 +301,12 @@ mod tests {
             (b"Sch\x94naich, Stra\xE1e", "Schönaich, Straße", Encoding::Cp850),
             (b"25 \xB0C, m/s\xB2", "25 °C, m/s²", Encoding::Windows1252),
             (b"25 \xF8C", "25 °C", Encoding::Cp850),
+            (b"a\0\xE4\0b\0", "aäb", Encoding::Utf16LeUnmarked),
+            (b"\0a\0\xE4\0b", "aäb", Encoding::Utf16BeUnmarked),
+            (b"\xD1\xEA\xEE\xF0\xEE\xF1\xF2\xFC", "Скорость", Encoding::Windows1251),
         ] {
             let decoded = decode(bytes.to_vec());
-            assert_eq!(decoded, (text.to_owned(), encoding));
+            assert_eq!(decoded, Ok((text.to_owned(), encoding)));
             assert_eq!(encode(text, encoding).as_deref(), Ok(bytes));
         }
     }
@@ -193,7 +314,7 @@ mod tests {
     #[test]
     fn what_is_marked_but_broken_is_read_byte_by_byte() {
         for bytes in [&b"\xFF\xFEa"[..], b"\xFF\xFE\0\xD8", b"\xFF\xFE", b"\xEF\xBB", b"\x80"] {
-            let (text, encoding) = decode(bytes.to_vec());
+            let (text, encoding) = decode(bytes.to_vec()).unwrap();
             assert_eq!(encode(&text, encoding).as_deref(), Ok(bytes), "{bytes:?}");
         }
         assert_eq!(encode("Ω", Encoding::Windows1252), Err('Ω'));

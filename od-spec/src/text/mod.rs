@@ -2,4 +2,5 @@
 
 pub mod ascii;
 pub mod encoding;
+mod fit;
 pub mod visible;

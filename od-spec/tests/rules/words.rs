@@ -223,6 +223,7 @@ fn faults() -> Vec<(&'static str, String)> {
         ("OD0303", var(0x2000, "unsigned8", 5, "ro", "")),
         ("OD0303", var(0x2001, "object 2000.entry 1", 5, "ro", "") + &structured(0x2000, 8, ("const", "DefaultValue=1"), &[element])),
         ("OD0303", structured(0x2000, 8, ("const", "DefaultValue=1"), &[element]).replace("=highest", "=entry 1")),
+        ("OD0846", var(0x2000, "level 温度", 5, "rw", "")),
         ("OD0502", pdo(Pdo { mapped: &[("rw", "0x20990008")], ..TPDO })),
         ("OD0313", structured(0x2000, 8, ("const", "DefaultValue=3"), &[element])),
         ("OD0417", structured(0x2000, 8, ("wo", "DefaultValue=1"), &[element])),

@@ -71,10 +71,11 @@ const CHANGES: [Change; 21] = [
 /// A mutant of the seeds, and the name of the one that it began with; `None` where there are no seeds.
 pub fn mutant(seeds: &[Seed], notation: &Notation, random: &mut Random) -> Option<Seed> {
     let seed = random.pick(seeds)?;
-    let (text, encoding) = decode(seed.bytes.clone());
+    let read = |seed: &Seed| decode(seed.bytes.clone()).ok();
+    let (text, encoding) = read(seed)?;
     let mut page = part(Page::new(&text, notation), random);
     for _ in 0..random.small(notation.most_changes) {
-        let other = random.pick(seeds).map(|other| decode(other.bytes.clone()).0).unwrap_or_default();
+        let other = random.pick(seeds).and_then(read).map(|(other, _)| other).unwrap_or_default();
         let other = Page::new(&other, notation);
         if let Some(change) = random.pick(&CHANGES) {
             change(&mut page, &other, random);

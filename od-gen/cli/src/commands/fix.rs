@@ -11,10 +11,9 @@ use od_gen::files::replace;
 use od_lsp::line_diff::line_diff;
 use od_spec::diag::{Code, Diagnostic, codes};
 use od_spec::eds::Document;
-use od_spec::encoding::decode;
 use od_spec::source::SourceMap;
 use od_spec::visible::visible;
-use od_spec::{Fixed, fix};
+use od_spec::{Fixed, add_source, fix};
 use similar::{ChangeTag, DiffOp, group_diff_ops};
 
 use crate::exit::{ERRORS, SUCCESS};
@@ -84,13 +83,13 @@ fn read(path: &PathBuf) -> Result<File, Box<Diagnostic>> {
     let Some(name) = path.to_str() else {
         return Err(refuse(format!("`{shown}` has a name that is not UTF-8"), "rename the file"));
     };
-    let (old, _) = decode(bytes.clone());
     let mut sources = SourceMap::new();
-    let file = sources.add(name, old.as_str());
-    if Document::scan(file, &old).sections().next().is_none() {
+    let file = add_source(&mut sources, name, bytes.clone())?;
+    let old = sources.file(file).text();
+    if Document::scan(file, old).sections().next().is_none() {
         return Err(refuse(format!("`{shown}` has no section, it is no EDS or DCF"), "name an EDS or DCF"));
     }
-    Ok(File { name: name.to_owned(), old, fixed: fix(name, &bytes) })
+    Ok(File { name: name.to_owned(), old: old.to_owned(), fixed: fix(name, &bytes)? })
 }
 
 impl File {

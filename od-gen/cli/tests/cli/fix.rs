@@ -75,3 +75,31 @@ fn fix_takes_nothing_but_eds_files() {
     }
     assert_eq!(code(&odgen(&scratch.0, &["fix"])), 2);
 }
+
+/// What is named as an EDS and is something else is left alone by every command.
+#[test]
+fn files_of_others_are_named_and_left_alone() {
+    let scratch = Scratch::new("fix-others");
+    let odva = "$ adapter\n[File]\n  DescText = \"Adapter\";\n[Device]\n  VendCode = 9999;\n";
+    let gbk =
+        [b"[FileInfo]\nFileName=g.eds\n[2000]\nParameterName=".as_slice(), b"\xCE\xC2\xB6\xC8\n"].concat();
+    scratch.file("odva.eds", odva);
+    scratch.file("gbk.eds", &gbk);
+    scratch.file("two.eds", "??");
+    for (file, said) in [
+        ("odva.eds", "error[OD0121]: `odva.eds` is an EDS of EtherNet/IP or DeviceNet"),
+        ("gbk.eds", "error[OD0102]: the texts of `gbk.eds` are in GBK"),
+        ("two.eds", "error[OD0121]: `two.eds` is no EDS or DCF: it has no section"),
+    ] {
+        for command in [&["fix", "--write"][..], &["check"], &["build"], &["import"], &["dcf", "--node", "5"]]
+        {
+            let output = odgen(&scratch.0, &[command, &[file]].concat());
+            let told = stderr(&output);
+            assert_eq!((code(&output), told.matches("error[").count()), (1, 1), "{command:?}: {told}");
+            assert!(told.contains(said), "{command:?}: {told}");
+        }
+    }
+    assert_eq!(files(&scratch.0), ["gbk.eds", "odva.eds", "two.eds"], "nothing is written");
+    assert_eq!(fs::read(scratch.0.join("gbk.eds")).unwrap(), gbk);
+    assert_eq!(fs::read_to_string(scratch.0.join("odva.eds")).unwrap(), odva);
+}

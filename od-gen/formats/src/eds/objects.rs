@@ -71,7 +71,7 @@ fn write_object(
         for var in &object.entries {
             let mut section =
                 SectionWriter::new(&name, &comments::entry(device, object.index, var, node, language));
-            entry::write(&mut section, object, var, &object.name, node);
+            entry::write(&mut section, object, var, &object.eds_name_of(var), node);
             section.finish(document);
         }
         write_links(document, object);
@@ -79,7 +79,7 @@ fn write_object(
     }
     let mut section = SectionWriter::new(&name, &comments::object(object, language));
     section.key("SubNumber", object.entries.len());
-    section.text("ParameterName", &object.name);
+    section.text("ParameterName", &object.eds_name());
     section.hexadecimal("ObjectType", object.kind.code(), 1);
     if let Some(node) = node {
         entry::denotation(&mut section, node, Denoted::object(object.index));
@@ -89,7 +89,7 @@ fn write_object(
         let name = entry_section(object.index, member.sub);
         let mut section =
             SectionWriter::new(&name, &comments::entry(device, object.index, member, node, language));
-        entry::write(&mut section, object, member, &member.name, node);
+        entry::write(&mut section, object, member, &object.eds_name_of(member), node);
         section.finish(document);
     }
     write_links(document, object);

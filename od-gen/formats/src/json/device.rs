@@ -1,8 +1,5 @@
 //! Devices: objects, entries, PDOs.
 
-use std::borrow::Cow;
-
-use od_spec::ascii::in_ascii;
 use od_spec::model::{
     self, AnyError, Author, Dictionary, DynamicChannel, Entry, Index, Mapped, Object, Pdo, PdoTarget, Real,
     Value,
@@ -159,7 +156,7 @@ fn object_view(object: &Object) -> ObjectView<'_> {
     ObjectView {
         index: index(object.index),
         name: &object.name,
-        eds_name: eds_name(&object.name),
+        eds_name: other_name(&object.name, &object.eds_name()),
         identifier: object.identifier.as_deref(),
         kind: object.kind.name().to_lowercase(),
         origin: object.origin.word(),
@@ -175,18 +172,15 @@ fn object_view(object: &Object) -> ObjectView<'_> {
 }
 
 /// The name as an EDS holds it, where that differs.
-fn eds_name(name: &str) -> Option<String> {
-    match in_ascii(name) {
-        Cow::Borrowed(_) => None,
-        Cow::Owned(ascii) => Some(ascii),
-    }
+fn other_name(name: &str, in_eds: &str) -> Option<String> {
+    (name != in_eds).then(|| in_eds.to_owned())
 }
 
 struct Entries<'a>(&'a Object);
 
 impl Serialize for Entries<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.0.entries.iter().map(|entry| entry_view(self.0.index, entry)))
+        serializer.collect_seq(self.0.entries.iter().map(|entry| entry_view(self.0, entry)))
     }
 }
 
@@ -249,12 +243,13 @@ fn real(limit: Option<&Real>) -> Option<Json> {
     limit.map(|limit| json!(limit.number()))
 }
 
-fn entry_view(place: Index, entry: &Entry) -> EntryView<'_> {
+fn entry_view<'o>(object: &'o Object, entry: &'o Entry) -> EntryView<'o> {
+    let place = object.index;
     let (low, high) = entry.hull();
     EntryView {
         sub: entry.sub.0,
         name: &entry.name,
-        eds_name: eds_name(&entry.name),
+        eds_name: other_name(&entry.name, &object.eds_name_of(entry)),
         data_type: entry.data_type.name(),
         named_type: entry.named_type.as_ref().map(|named| named.name.as_str()),
         access: entry.access.word(),

@@ -6,6 +6,7 @@ use crate::rules::rules;
 rules! { Rule:
     names_are_unique,
     names_fit_eds,
+    names_keep_their_characters,
     texts_fit_eds,
     definitions_are_used,
 }

@@ -1,6 +1,6 @@
 //! Names can be written into an EDS that every tool reads alike.
 
-use crate::ascii::{in_ascii, transliterate};
+use crate::ascii::{has_no_form, in_ascii, transliterate};
 use crate::check::findings::Findings;
 use crate::check::names::texts_fit_eds::unfit;
 use crate::check::rule::{Check, Needs, Rule};
@@ -112,7 +112,7 @@ fn check_name(name: &str, place: Span, about: About, findings: &mut Findings) {
     let problem = if written.len() > LONGEST {
         let length = name.chars().count();
         format!("the name `{}` has {length} characters, an EDS holds {LONGEST}", shorten(name))
-    } else if written.chars().all(|c| c == '?') && !name.contains('?') && !name.is_empty() {
+    } else if has_no_form(name) {
         "no character of the name has a form in ASCII".to_owned()
     } else if let Some(unfit) = name.chars().find_map(unfit) {
         format!("the name `{}` holds {unfit}, which EDS readers misread", shorten(name))

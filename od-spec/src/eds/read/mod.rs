@@ -17,6 +17,7 @@ mod node;
 mod node_texts;
 mod objects;
 mod shape;
+mod unread;
 mod value;
 mod words;
 
@@ -47,6 +48,7 @@ pub(crate) fn read(
     let mut node = view.is_dcf.then(|| node::read(view));
     let mut meanings = comments::Meanings::default();
     let objects = objects(view, node.as_mut(), &mut meanings, standard, diagnostics);
+    unread::tell(view, diagnostics);
     let (units, types) = meanings.into_declarations();
     let device = DeviceDecl {
         dynamic_channels: channels::read(view, diagnostics),

@@ -61,7 +61,7 @@ pub(crate) enum Gaps {
 pub(crate) const HELP: &str = "\
 cargo xtask TASK
 
-  check               format, lints, documentation and unit tests: about a minute
+  check               format, lints and unit tests: about a minute
   test [--all | --long] [--without-browser] [--without-emulator] [PART…]
                       run the tests: every part that this machine has the tools for
   generate [--check]  rewrite everything that is generated and checked in, or report what is not current

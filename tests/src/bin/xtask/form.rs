@@ -1,4 +1,4 @@
-//! The form of the sources: format, lints, documentation.
+//! The form of the sources: format and lints; the documentation made of them.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -26,7 +26,7 @@ const FEATURES: [(&str, &[&str]); 3] = [
     ("od-spec", &["", "xdd"]),
 ];
 
-/// Format, lints and documentation, as they have to be. What users compile with few features, and `firmware-glue` with all of them, is
+/// Format and lints, as they have to be. What users compile with few features, and `firmware-glue` with all of them, is
 /// looked at beside the workspace, which has those that its members ask for.
 pub(crate) fn check(runner: &mut Runner) -> Result<(), Failure> {
     runner.cargo(&["fmt", "--all", "--check"])?;
@@ -37,9 +37,13 @@ pub(crate) fn check(runner: &mut Runner) -> Result<(), Failure> {
         clippy(runner, &["--package", package, "--lib", "--no-default-features"])?;
     }
     runner.cargo(&["check", "--quiet", "--package", "od-generated", "--features", "defmt"])?;
-    let mut doc = cargo(&["doc", "--quiet", "--workspace", "--no-deps", "--document-private-items"]);
-    runner.run(doc.env("RUSTDOCFLAGS", "-D warnings"))?;
     firmware(runner)
+}
+
+/// The documentation of every item, also of private ones, without a warning.
+pub(crate) fn documentation(runner: &mut Runner) -> Result<(), Failure> {
+    let mut doc = cargo(&["doc", "--quiet", "--workspace", "--no-deps", "--document-private-items"]);
+    runner.run(doc.env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 /// Rules are declared by a macro, where `cargo fmt` does not find their files.

@@ -120,7 +120,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 37] = [
+pub(crate) static PARTS: [Part; 38] = [
     rust("form", "form", Tier::Check, form::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
     rust("rust", "Rust tests", Tier::Gate, rust_tests::integration),
@@ -223,6 +223,14 @@ pub(crate) static PARTS: [Part; 37] = [
         "Rust tests with all random values",
         Tier::Long("finds rare faults only; the gate tries the first quarter of the same values"),
         rust_tests::long,
+    ),
+    rust(
+        "documentation",
+        "links of the documentation",
+        Tier::Long(
+            "reads every crate once more; the gate's lints want a text at each item, and its examples run",
+        ),
+        form::documentation,
     ),
     rust(
         "features",

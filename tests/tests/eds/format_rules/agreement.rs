@@ -124,7 +124,7 @@ fn what_is_fixed_is_read_as_fixed() {
     let texts = texts.chain(TEXTS.iter().map(|text| whole(Language::Dcf, text)));
     let (mut wrong, mut codes) = (Vec::new(), BTreeSet::new());
     for (name, text) in texts {
-        let fixed = fix(name, text.as_bytes());
+        let fixed = fix(name, text.as_bytes()).unwrap();
         let differs = difference(name, text.as_bytes(), &fixed);
         wrong.extend(
             differs.map(|what| format!("{what}, in {:?}", text.chars().take(90).collect::<String>())),

@@ -29,7 +29,7 @@ fn messy_files_say_what_was_reviewed() {
             let code = name.split('_').next().unwrap().to_uppercase();
             assert!(codes(&found).contains(code.as_str()), "{name}: {:?}", codes(&found));
 
-            let fixed = fix(name, &bytes);
+            let fixed = fix(name, &bytes).unwrap();
             assert!(errors(&fixed.left) <= errors(&found), "{name}");
             let left = render(&about_text(&fixed.left), &fixed.sources, Format::Short, false);
             let found = render(&about_text(&found), &sources, Format::Short, false);
@@ -42,7 +42,7 @@ fn messy_files_say_what_was_reviewed() {
                 name,
                 format!("found:\n{found}\nmended, in {}:\n{text}\nleft:\n{left}", fixed.encoding)
             );
-            let again = fix(name, &fixed.to_bytes());
+            let again = fix(name, &fixed.to_bytes()).unwrap();
             assert!(again.changes.is_empty() && again.to_bytes() == fixed.to_bytes(), "{name}");
         }
     });

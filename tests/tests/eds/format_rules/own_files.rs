@@ -14,7 +14,7 @@ fn our_own_files_are_without_a_remark() {
         for one in &diagnostics {
             assert!(is_said_by_manuals(one), "{name}: {one:?}");
         }
-        let fixed = fix(name, &bytes);
+        let fixed = fix(name, &bytes).unwrap();
         assert!(fixed.changes.is_empty() && fixed.to_bytes() == bytes, "{name}: {:?}", fixed.changes);
     }
 }

@@ -261,7 +261,7 @@ fn a_planted_fault_is_found_at_its_line_and_mended() {
         if file.line_col(at).line != line {
             wrong.push(format!("{what}: found in line {line}, expected {}", file.line_col(at)));
         }
-        let fixed = fix(name, text.as_bytes());
+        let fixed = fix(name, text.as_bytes()).unwrap();
         let outcome = match fixed.text() {
             _ if codes(&fixed.left).contains(fault.code) => Left,
             text if text == clean => Restored,
@@ -272,7 +272,7 @@ fn a_planted_fault_is_found_at_its_line_and_mended() {
             wrong.push(format!("{what}: {outcome:?}, expected {:?}", fault.outcome));
         }
         wrong.extend(difference(name, text.as_bytes(), &fixed).map(|differs| format!("{what}: {differs}")));
-        let again = fix(name, &fixed.to_bytes());
+        let again = fix(name, &fixed.to_bytes()).unwrap();
         assert!(again.changes.is_empty(), "{what}: {:?}", again.changes);
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

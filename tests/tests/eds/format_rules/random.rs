@@ -1,6 +1,7 @@
 //! Whatever a text is, the rules say something about it without a panic, at places that exist, and mending it ends.
 
-use od_spec::fix;
+use od_spec::source::SourceMap;
+use od_spec::{add_source, fix};
 use od_tests::{break_lines, root};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -75,6 +76,11 @@ const PIECES: &[&str] = &[
 ];
 
 fn go_through(name: &str, bytes: &[u8]) {
+    // What is refused as a whole, nothing is said about.
+    if add_source(&mut SourceMap::new(), name, bytes.to_vec()).is_err() {
+        assert!(fix(name, bytes).is_err());
+        return;
+    }
     let (found, sources) = said(name, bytes);
     let places = found.iter().flat_map(|one| one.labels.iter().map(|label| label.span));
     let changed = found.iter().flat_map(|one| one.edits.iter().map(|edit| edit.span));
@@ -82,12 +88,12 @@ fn go_through(name: &str, bytes: &[u8]) {
         let text = sources.file(span.file).text();
         assert!(text.get(span.start as usize..span.end as usize).is_some(), "{span:?}");
     }
-    let fixed = fix(name, bytes);
+    let fixed = fix(name, bytes).unwrap();
     assert!(errors(&fixed.left) <= errors(&found));
     for change in &fixed.changes {
         assert!(fixed.text().get(change.place.clone()).is_some(), "{change:?}");
     }
-    let again = fix(name, &fixed.to_bytes());
+    let again = fix(name, &fixed.to_bytes()).unwrap();
     assert!(again.changes.is_empty(), "{:?} in {:?}", again.changes, fixed.text());
     assert_eq!(again.to_bytes(), fixed.to_bytes());
 }

@@ -84,10 +84,11 @@ const PIECES: &[&str] = &[
 
 /// Compiles bytes at both levels, and makes every output of what comes out.
 fn go_through(name: &str, bytes: &[u8]) {
-    let (text, encoding) = decode(bytes.to_vec());
+    // What is refused is refused by all commands.
+    let Ok((text, encoding)) = decode(bytes.to_vec()) else { return };
     assert_eq!(encode(&text, encoding).as_deref(), Ok(bytes));
     let mut sources = SourceMap::new();
-    let root = add_source(&mut sources, name, bytes.to_vec()).unwrap();
+    let Ok(root) = add_source(&mut sources, name, bytes.to_vec()) else { return };
     let file = sources.file(root);
     assert_eq!(Document::scan(root, file.text()).to_string(), file.text());
     for strictness in [Strictness::Foreign, Strictness::Standard] {

@@ -78,7 +78,7 @@ fn names_are_errors_and_fixed() {
         "found `read only`, expected `ro` -> ro",
     ];
     assert_eq!(said("scale.eds", SCALE, "EDS406"), accesses);
-    let fixed = fix("scale.eds", SCALE.as_bytes());
+    let fixed = fix("scale.eds", SCALE.as_bytes()).unwrap();
     for line in ["ObjectType=0x9", "ObjectType=0x2", "DataType=0x0006", "DataType=0x0009", "AccessType=rw"] {
         assert!(fixed.text().contains(line), "{line}: {}", fixed.text());
     }

@@ -1,7 +1,7 @@
 //! What is said about bytes that are no text, and about library files.
 
 use od_spec::source::SourceMap;
-use od_spec::{Compiled, Loader, compile, read_text};
+use od_spec::{Compiled, Loader, add_source, compile, read_text};
 
 use crate::diagnostics::wording_rules::check_wording;
 use crate::diagnostics::{human, human_one};
@@ -21,6 +21,26 @@ fn bytes_that_are_no_text() {
         "#);
     insta::assert_snapshot!(human_one(*read_text("disk.img", vec![b' '; (64 << 20) + (9 << 20)]).unwrap_err(), &sources), @r#"
         error[OD0103]: `disk.img` has 73 MiB; the limit is 64 MiB
+        help: is this the right file?
+        "#);
+}
+
+#[test]
+fn files_that_are_no_eds() {
+    let sources = SourceMap::new();
+    let refused = |name: &str, bytes: &[u8]| {
+        human_one(*add_source(&mut SourceMap::new(), name, bytes.to_vec()).unwrap_err(), &sources)
+    };
+    insta::assert_snapshot!(refused("lamp.eds", b"[2000]\nParameterName=\xCB\xD9\xB6\xC8\n"), @r#"
+        error[OD0102]: the texts of `lamp.eds` are in GBK, in which a character has two bytes
+        help: save it as UTF-8, for example with `iconv -f gbk -t utf-8`
+        "#);
+    insta::assert_snapshot!(refused("lamp.eds", b"[File]\nRevision = 1.0;\n[Device]\nMajRev = 1;\n"), @r#"
+        error[OD0121]: `lamp.eds` is an EDS of EtherNet/IP or DeviceNet ([File], [Device]), not of CANopen
+        help: ask the maker for the EDS of the CANopen interface
+        "#);
+    insta::assert_snapshot!(refused("lamp.dcf", b"\n"), @r#"
+        error[OD0121]: `lamp.dcf` is no EDS or DCF: it has no section
         help: is this the right file?
         "#);
 }

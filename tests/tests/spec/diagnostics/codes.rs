@@ -7,7 +7,7 @@ use od_c as c;
 use od_gen::rust::{self, Provenance};
 use od_spec::diag::{Code, Diagnostics, Example, Language, Severity, codes as known};
 use od_spec::source::SourceMap;
-use od_spec::{NoFiles, Strictness, all_codes, code, compile_as, read_text};
+use od_spec::{NoFiles, Strictness, add_source, all_codes, code, compile_as, read_text};
 
 use crate::diagnostics::bytes_and_libraries::{LAMP, compiled_with};
 use crate::diagnostics::settings::{HEATER, assigned};
@@ -25,6 +25,7 @@ struct Provocation {
 const PROVOKED: &[Provocation] = &[
     Provocation { code: known::NOT_UTF8, diagnostics: || unread(b"title: L\xe4mpchen".to_vec()) },
     Provocation { code: known::TOO_LARGE, diagnostics: || unread(vec![b' '; (64 << 20) + 1]) },
+    Provocation { code: known::OTHER_BUS, diagnostics: || no_eds(b"[File]\n[Device]\n".to_vec()) },
     Provocation { code: known::NOT_A_LIBRARY, diagnostics: lamps_without_profile },
     Provocation { code: known::NOT_A_PART, diagnostics: parts::a_file_that_is_no_part },
     Provocation { code: known::BAD_ASSIGNMENT, diagnostics: || heater(&["2000"]) },
@@ -40,6 +41,12 @@ const PROVOKED: &[Provocation] = &[
 fn unread(bytes: Vec<u8>) -> Diagnostics {
     let mut diagnostics = Diagnostics::new();
     diagnostics.push(*read_text("lamp.od.yaml", bytes).unwrap_err());
+    diagnostics
+}
+
+fn no_eds(bytes: Vec<u8>) -> Diagnostics {
+    let mut diagnostics = Diagnostics::new();
+    diagnostics.push(*add_source(&mut SourceMap::new(), "lamp.eds", bytes).unwrap_err());
     diagnostics
 }
 

@@ -25,8 +25,15 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let in_the_text = view.document.lines().first().is_some_and(|line| line.text().starts_with('\u{FEFF}'));
     let marked = match view.facts.encoding {
         Encoding::Utf8WithMark => "the file begins with a byte order mark",
-        Encoding::Utf16Le | Encoding::Utf16Be => "the file is UTF-16, two bytes for each character",
-        Encoding::Ascii | Encoding::Utf8 | Encoding::Windows1252 | Encoding::Cp850 | Encoding::Cp437 => {
+        Encoding::Utf16Le | Encoding::Utf16Be | Encoding::Utf16LeUnmarked | Encoding::Utf16BeUnmarked => {
+            "the file is UTF-16, two bytes for each character"
+        }
+        Encoding::Ascii
+        | Encoding::Utf8
+        | Encoding::Windows1252
+        | Encoding::Windows1251
+        | Encoding::Cp850
+        | Encoding::Cp437 => {
             if !in_the_text {
                 return;
             }

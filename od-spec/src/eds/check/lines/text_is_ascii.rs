@@ -7,6 +7,7 @@ use crate::ascii::transliterate;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
 use crate::eds::line::{Line, LineKind};
 use crate::eds::view::View;
+use crate::encoding::as_likely;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 
@@ -29,20 +30,22 @@ const CODE: &Code = &Code {
 const FEW: usize = 16;
 
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
+    let lines = || view.document.lines().iter().filter(|line| !line.text().is_ascii());
+    let encoding = view.facts.encoding;
+    let text: Vec<&str> = lines().map(Line::text).collect();
+    let or_another = as_likely(&text.join("\n"), encoding).map(|page| format!(" or, as likely, {page}"));
     let mut found = Repeated::new();
-    for line in view.document.lines().iter().filter(|line| !line.text().is_ascii()) {
+    for line in lines() {
         // A mark in front of the text is another rule's.
         let foreign = |(_, c): &(usize, char)| !c.is_ascii() && *c != '\u{FEFF}';
         let Some((at, c)) = line.text().char_indices().find(foreign) else { continue };
         let place = edits::place(view, line).part(at, at + c.len_utf8());
         found.add(place, transliterated(view, line), || {
             let text = shorten(&c.to_string());
-            Diagnostic::new(
-                CODE,
-                place,
-                format!("`{text}` is not ASCII, the file is {}", view.facts.encoding),
-            )
-            .help("write it in ASCII; `odgen fix` transliterates names and texts")
+            let or_another = or_another.as_deref().unwrap_or_default();
+            let message = format!("`{text}` is not ASCII, the file is {encoding}{or_another}");
+            Diagnostic::new(CODE, place, message)
+                .help("write it in ASCII; `odgen fix` transliterates names and texts")
         });
     }
     found.finish("lines", diagnostics);
@@ -99,7 +102,7 @@ mod tests {
     #[test]
     fn what_is_no_number_does_not_become_one() {
         let text = "[2000]\nParameterName=10 µm\nDataType=0x000ª\n[OptionalObjects]\n1=0x2000ª\n";
-        let fixed = fix("lamp.eds", text.as_bytes());
+        let fixed = fix("lamp.eds", text.as_bytes()).unwrap();
         let kept = ["ParameterName=10 um", "DataType=0x000ª", "1=0x2000ª"];
         assert!(kept.iter().all(|line| fixed.text().contains(line)), "{}", fixed.text());
     }
@@ -108,7 +111,7 @@ mod tests {
     #[test]
     fn many_characters_of_a_line_are_one_change() {
         let text = format!("[FileInfo]\nDescription={}\n", "ä\t".repeat(5000));
-        let fixed = fix("lamp.eds", text.as_bytes());
+        let fixed = fix("lamp.eds", text.as_bytes()).unwrap();
         assert_eq!(fixed.encoding, Encoding::Ascii);
         assert!(fixed.text().contains(&format!("Description={}", "ae\t".repeat(5000).trim_end())));
         let changes = fixed.changes.iter().filter(|change| change.code.id == "EDS101").count();

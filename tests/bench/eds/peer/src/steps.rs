@@ -87,7 +87,7 @@ impl Step {
                 Ok(((text, compiled), size))
             }),
             Step::Fix => timed(|| {
-                let fixed = od_spec::fix("controller.eds", bytes);
+                let fixed = od_spec::fix("controller.eds", bytes).unwrap();
                 let size = fixed.text().len();
                 Ok((fixed, size))
             }),
