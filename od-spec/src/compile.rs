@@ -133,7 +133,7 @@ fn compile_eds(
     let facts = FileFacts { name, encoding: file.encoding(), format: rules.format };
     let view = View::new(&document, root, eds::is_dcf(name), facts);
     eds::check::document(&view, &mut diagnostics);
-    let read = read(&view, file.name(), &mut diagnostics);
+    let read = read(&view, file.name(), standard::data_type, &mut diagnostics);
     resolved(rules, read, strictness, diagnostics)
 }
 
@@ -148,13 +148,14 @@ fn compile_xdd(
     let mut diagnostics = Diagnostics::new();
     let file = sources.file(root);
     let text = straight(file.text());
-    let Some(xdd::Translated { document, texts }) = xdd::translate(root, &text, &mut diagnostics) else {
+    let translated = xdd::translate(root, &text, standard::data_type, &mut diagnostics);
+    let Some(xdd::Translated { document, texts }) = translated else {
         return Compiled::refused(diagnostics);
     };
     let name = eds::file_name(file.name());
     let facts = FileFacts { name, encoding: file.encoding(), format: rules.format };
     let view = View::new(&document, root, xdd::is_xdc(name), facts);
-    let mut read = read(&view, file.name(), &mut diagnostics);
+    let mut read = read(&view, file.name(), standard::data_type, &mut diagnostics);
     texts.add_to(&mut read.spec);
     let mut compiled = resolved(rules, read, strictness, diagnostics);
     compiled.diagnostics.without_edits();

@@ -166,6 +166,15 @@ impl<'t> Line<'t> {
         Some(text.strip_prefix(' ').unwrap_or(text).trim_end_matches(is_blank))
     }
 
+    /// Where the text after a section's name begins, which is no part of it, and what it says: a comment that has no line of
+    /// its own.
+    pub(super) fn after_name(&self) -> Option<(usize, &str)> {
+        let Content::Header { .. } = self.content else { return None };
+        let end = self.text.find(']')? + 1;
+        let text = self.text[end..].trim();
+        (!text.is_empty()).then(|| (end, text.trim_start_matches([';', '#']).trim()))
+    }
+
     /// Where a part of the line stands in its file, in bytes of the line's text.
     pub(super) const fn part(&self, file: FileId, part: Part) -> Span {
         Span { file, start: self.start + part.start, end: self.start + part.end }

@@ -208,6 +208,7 @@ fn unreadable(text: Spanned<&str>, expected: &str) -> Diagnostic {
 /// A number that is understood, but not written as the standard has it.
 pub(super) fn deviates(text: Spanned<&str>, deviation: &Deviation, value: i128) -> Diagnostic {
     let shown = shorten(text.value);
+    let bare = number::bare(text.value, &mut Vec::new());
     match deviation {
         Deviation::Octal => {
             Diagnostic::new(codes::OCTAL, text.span, format!("`{shown}` is octal and means {value}"))
@@ -221,13 +222,11 @@ pub(super) fn deviates(text: Spanned<&str>, deviation: &Deviation, value: i128) 
         Deviation::NegativeHex | Deviation::PlusSign | Deviation::Fraction => {
             without(text, deviation, &value.to_string())
         }
-        Deviation::Suffix(suffix) => {
-            without(text, deviation, text.value.get(..suffix.start).unwrap_or(text.value))
-        }
+        Deviation::Suffix(suffix) => without(text, deviation, bare.get(..suffix.start).unwrap_or(bare)),
         Deviation::Remark(remark) => {
             without(text, deviation, text.value.get(..remark.start).unwrap_or(text.value))
         }
-        Deviation::Quoted => without(text, deviation, text.value.trim_matches('"')),
+        Deviation::Quoted => without(text, deviation, bare),
     }
 }
 
