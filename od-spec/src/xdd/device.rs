@@ -4,16 +4,23 @@ use roxmltree::Node;
 
 use super::parameters::Parameters;
 use super::tree::{Tree, child, children, is_named};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::eds::Document;
+use crate::eds::number::lenient_integer;
 use crate::source::{Span, Spanned};
 
 /// Writes what is said about the file, the device and its node.
-pub(super) fn write<'x>(document: &mut Document<'static>, tree: Tree<'x>, parameters: &Parameters<'x>) {
+pub(super) fn write<'x>(
+    document: &mut Document<'static>,
+    tree: Tree<'x>,
+    parameters: &Parameters<'x>,
+    diagnostics: &mut Diagnostics,
+) {
     file_info(document, tree);
     device_info(document, tree, parameters);
     dummies(document, tree);
     channels(document, tree);
-    commissioning(document, tree);
+    commissioning(document, tree, diagnostics);
 }
 
 /// Adds keys to a section.
@@ -155,7 +162,7 @@ fn channels(document: &mut Document<'static>, tree: Tree<'_>) {
     keys.add("NrOfSeg", Some(Spanned::new(number.to_string(), place)));
 }
 
-fn commissioning(document: &mut Document<'static>, tree: Tree<'_>) {
+fn commissioning(document: &mut Document<'static>, tree: Tree<'_>, diagnostics: &mut Diagnostics) {
     let Some(node) = tree.first("deviceCommissioning") else { return };
     document.push_header("DeviceComissioning", tree.place(node), &[]);
     let text = |name: &str| tree.attribute(node, name);
@@ -167,4 +174,18 @@ fn commissioning(document: &mut Document<'static>, tree: Tree<'_>) {
     keys.add("NetNumber", text("networkNumber"));
     keys.add("NetworkName", text("networkName"));
     keys.add("CANopenManager", text("CANopenManager").map(flag));
+    let is_number = |text: &str, fits: fn(&i128) -> bool| lenient_integer(text).as_ref().is_some_and(fits);
+    let is_node_id = |text: &str| is_number(text, |id| matches!(id, 1..=127 | 255));
+    let is_network = |text: &str| is_number(text, |number| u32::try_from(*number).is_ok());
+    let is_rate = |text: &str| kbit(text).is_some();
+    let expected: [(_, &dyn Fn(&str) -> bool, _, _); 3] = [
+        ("NodeID", &is_node_id, "a node-ID", "node-IDs are 1 to 127"),
+        ("actualBaudRate", &is_rate, "a bit rate", "write it in kbit/s, such as `250 Kbps`"),
+        ("networkNumber", &is_network, "a number", "write the number of the network"),
+    ];
+    for (name, is_right, expected, help) in expected {
+        let Some(text) = text(name).filter(|text| !is_right(text.value)) else { continue };
+        let message = format!("found `{name}=\"{}\"`, expected {expected}", shorten(text.value));
+        diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, text.span, message).help(help));
+    }
 }

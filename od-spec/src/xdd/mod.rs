@@ -66,7 +66,7 @@ pub(crate) fn translate(file: FileId, text: &str, diagnostics: &mut Diagnostics)
     };
     let mut document = Document::translated(file);
     let parameters = parameters::Parameters::of(xml);
-    device::write(&mut document, xml, &parameters);
+    device::write(&mut document, xml, &parameters, diagnostics);
     let mut texts = Texts::of(xml);
     objects::write(&mut document, xml, list, &parameters, &mut texts, diagnostics);
     tree::say_what_is_left_out(xml, diagnostics);

@@ -13,6 +13,7 @@ use super::types;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::eds::Document;
 use crate::eds::number::lenient_integer;
+use crate::limits::Room;
 use crate::model::{DataType, EntryId, Index, ObjectKind, SubIndex};
 use crate::source::{Span, Spanned};
 
@@ -23,6 +24,8 @@ struct Context<'a, 'x> {
     parameters: &'a Parameters<'x>,
     texts: &'a mut Texts,
     diagnostics: &'a mut Diagnostics,
+    /// What is left for the texts of parameters, which any number of objects may share.
+    room: Room,
 }
 
 /// Writes the sections of all objects.
@@ -34,7 +37,7 @@ pub(super) fn write<'x>(
     texts: &mut Texts,
     diagnostics: &mut Diagnostics,
 ) {
-    let mut context = Context { document, tree, parameters, texts, diagnostics };
+    let mut context = Context { document, tree, parameters, texts, diagnostics, room: Room::new(0) };
     let mut seen = BTreeSet::new();
     for node in children(list, "CANopenObject") {
         let Some((number, place)) = context.number(node, "index", 0xFFFF) else { continue };
@@ -192,6 +195,15 @@ impl<'a, 'x> Context<'a, 'x> {
         let described = self.texts.lines(self.tree, key_of(id, is_sub), parameter);
         let mut lines: Vec<String> = described.into_iter().map(str::to_owned).collect();
         lines.extend(meaning::lines(self.tree, parameter, id, self.diagnostics));
+        if let Err(full) = self.room.take(0, lines.iter().map(String::len).sum()) {
+            let message = full.words(0);
+            let help = "the texts of further parameters are left out; is this the right file?";
+            let place = self.tree.place(self.tree.xml.root_element());
+            if self.diagnostics.is_new(codes::TOO_MUCH, place) {
+                self.diagnostics.push(Diagnostic::new(codes::TOO_MUCH, place, message).help(help));
+            }
+            return Vec::new();
+        }
         lines
     }
 

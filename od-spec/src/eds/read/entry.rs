@@ -136,7 +136,10 @@ fn data_type(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mut Conte
     let Some(known) = known else {
         let message = format!("{id}: there is no data type `{}`; it is taken as DOMAIN", shorten(text.value));
         let help = "write the index of a data type of CiA 301, such as `0x0007` for UNSIGNED32";
-        context.push(Diagnostic::new(codes::UNKNOWN_DATA_TYPE, text.span, message).help(help));
+        context.push(
+            Diagnostic::new(codes::UNKNOWN_DATA_TYPE, text.span, message)
+                .help(number::help(text.value, help)),
+        );
         return Spanned::new(DataType::Domain, text.span);
     };
     report(text, read.as_ref(), context);
@@ -217,7 +220,10 @@ fn mapping(
             "{id}: found {}, expected 0 or 1",
             context.format.set(Key::Mapping, &shorten(text.value))
         );
-        context.push(Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0 or 1"));
+        context.push(
+            Diagnostic::new(codes::BAD_FLAG, text.span, message)
+                .help(number::help(text.value, "write 0 or 1")),
+        );
     }
     report(text, number.as_ref(), context);
     let mapping = match access {
@@ -239,7 +245,10 @@ pub(super) fn flags(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) -> 
             "{id}: found {}, expected a number",
             context.format.set(Key::ObjectFlags, &shorten(text.value))
         );
-        context.push(Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0, 1, 2 or 3"));
+        context.push(
+            Diagnostic::new(codes::BAD_FLAG, text.span, message)
+                .help(number::help(text.value, "write 0, 1, 2 or 3")),
+        );
         return None;
     };
     report(text, read.as_ref(), context);
