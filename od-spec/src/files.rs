@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Label, codes, shorten};
-use crate::keys::SPEC_VERSION;
+use crate::keys::{PART_OF, SPEC_VERSION};
 use crate::source::{FileId, SourceMap, Span, Spanned};
 use crate::{eds, encoding, xdd};
 
@@ -30,11 +30,16 @@ impl Loader for NoFiles {
     }
 }
 
-/// Whether a text may be a specification, a part of one or a library: it has the key that all of them have. Any other text
-/// may be anybody's: no message quotes it.
+/// Whether a text may be a specification, a part of one or a library: it has the key that all of them have, or that of a
+/// part. Any other text may be anybody's: no message quotes it.
 pub fn may_be_specification(text: &[u8]) -> bool {
-    memchr::memmem::find_iter(text, SPEC_VERSION).any(|at| {
-        let rest = text.get(at + SPEC_VERSION.len()..).unwrap_or_default();
+    [SPEC_VERSION, PART_OF].into_iter().any(|key| has_key(text, key))
+}
+
+/// Whether a key may stand somewhere in a text.
+fn has_key(text: &[u8], key: &str) -> bool {
+    memchr::memmem::find_iter(text, key).any(|at| {
+        let rest = text.get(at + key.len()..).unwrap_or_default();
         let unquoted = rest.strip_prefix(b"\"").or_else(|| rest.strip_prefix(b"'")).unwrap_or(rest);
         unquoted.trim_ascii_start().starts_with(b":")
     })
