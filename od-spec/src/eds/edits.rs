@@ -75,7 +75,8 @@ pub(in crate::eds) fn number_like(old: &str, number: impl Into<i128>) -> String 
 
 /// The line break that most lines have, that of the standard's examples where it is undecided.
 pub(in crate::eds) fn usual_break(view: &View<'_>) -> LineEnd {
-    let count = |end| view.document.lines().iter().filter(|line| line.end() == end).count();
+    let of_end = |end| view.document.lines().iter().filter(move |line| line.end() == end);
+    let count = |end| of_end(end).map(Line::number).sum::<usize>();
     if count(LineEnd::Lf) > count(LineEnd::CrLf) { LineEnd::Lf } else { LineEnd::CrLf }
 }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::source::{FileId, Span};
 
-/// A line and what ends it.
+/// A line and what ends it. Empty lines that follow each other are one, with the breaks between them in its text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Line<'t> {
     text: Cow<'t, str>,
@@ -129,6 +129,14 @@ impl<'t> Line<'t> {
     /// What ends the line.
     pub const fn end(&self) -> LineEnd {
         self.end
+    }
+
+    /// How many lines of the text it stands for.
+    pub(in crate::eds) fn number(&self) -> usize {
+        match self.content {
+            Content::Blank if !self.end.text().is_empty() => 1 + self.text.matches(self.end.text()).count(),
+            _ => 1,
+        }
     }
 
     /// What the line is.

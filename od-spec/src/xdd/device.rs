@@ -6,6 +6,7 @@ use super::parameters::Parameters;
 use super::tree::{Tree, child, children, is_named};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::eds::Document;
+use crate::eds::number::lenient_integer;
 use crate::notation::words;
 use crate::source::{Span, Spanned};
 
@@ -181,4 +182,18 @@ fn commissioning(document: &mut Document<'static>, tree: Tree<'_>, diagnostics: 
     keys.add("NetNumber", text("networkNumber"));
     keys.add("NetworkName", text("networkName"));
     keys.add("CANopenManager", text("CANopenManager").map(flag));
+    let is_number = |text: &str, fits: fn(&i128) -> bool| lenient_integer(text).as_ref().is_some_and(fits);
+    let is_node_id = |text: &str| is_number(text, |id| matches!(id, 1..=127 | 255));
+    let is_network = |text: &str| is_number(text, |number| u32::try_from(*number).is_ok());
+    let is_rate = |text: &str| kbit(text).is_some();
+    let expected: [(_, &dyn Fn(&str) -> bool, _, _); 3] = [
+        ("NodeID", &is_node_id, "a node-ID", "node-IDs are 1 to 127"),
+        ("actualBaudRate", &is_rate, "a bit rate", "write it in kbit/s, such as `250 Kbps`"),
+        ("networkNumber", &is_network, "a number", "write the number of the network"),
+    ];
+    for (name, is_right, expected, help) in expected {
+        let Some(text) = text(name).filter(|text| !is_right(text.value)) else { continue };
+        let message = format!("found `{name}=\"{}\"`, expected {expected}", shorten(text.value));
+        diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, text.span, message).help(help));
+    }
 }

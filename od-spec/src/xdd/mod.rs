@@ -31,6 +31,8 @@ use crate::eds::Document;
 #[cfg(feature = "xdd")]
 use crate::eds::read::StandardTypes;
 #[cfg(feature = "xdd")]
+use crate::limits::Room;
+#[cfg(feature = "xdd")]
 use crate::source::FileId;
 
 /// Whether a text is an XDD or XDC: by the name of its file or, where that says nothing, by its first character.
@@ -82,6 +84,7 @@ pub(crate) fn translate(
         texts: &mut texts,
         standard,
         diagnostics,
+        room: Room::new(0),
     };
     objects::write(list, context);
     tree::say_what_is_left_out(xml, diagnostics);

@@ -14,6 +14,7 @@ use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::eds::Document;
 use crate::eds::number::lenient_integer;
 use crate::eds::read::{Form, StandardTypes};
+use crate::limits::Room;
 use crate::model::{DataType, EntryId, Index, ObjectKind, SubIndex};
 use crate::notation::words;
 use crate::source::{Span, Spanned};
@@ -27,6 +28,8 @@ pub(super) struct Context<'a, 'x> {
     /// What CiA 301 says.
     pub standard: StandardTypes,
     pub diagnostics: &'a mut Diagnostics,
+    /// What is left for the texts of parameters, which any number of objects may share.
+    pub room: Room,
 }
 
 /// Writes the sections of all objects.
@@ -189,6 +192,15 @@ impl<'a, 'x> Context<'a, 'x> {
         let described = self.texts.lines(self.tree, key_of(id, is_sub), parameter);
         let mut lines: Vec<String> = described.into_iter().map(str::to_owned).collect();
         lines.extend(meaning::lines(self.tree, parameter, id, self.diagnostics));
+        if let Err(full) = self.room.take(0, lines.iter().map(String::len).sum()) {
+            let message = full.words(0);
+            let help = "the texts of further parameters are left out; is this the right file?";
+            let place = self.tree.place(self.tree.xml.root_element());
+            if self.diagnostics.is_new(codes::TOO_MUCH, place) {
+                self.diagnostics.push(Diagnostic::new(codes::TOO_MUCH, place, message).help(help));
+            }
+            return Vec::new();
+        }
         lines
     }
 

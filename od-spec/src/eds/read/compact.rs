@@ -36,7 +36,9 @@ pub(super) fn count(main: &Part<'_>, context: &mut Context<'_>) -> Option<u8> {
             let taken = other.filter(|count| *count > 254).map(|_| 254);
             let message = format!("found `CompactSubObj={}`, expected 1 to 254", shorten(text.value));
             let help = "write the number of elements without sub-index 0";
-            context.push(Diagnostic::new(codes::BAD_COUNT, text.span, message).help(help));
+            context.push(
+                Diagnostic::new(codes::BAD_COUNT, text.span, message).help(number::help(text.value, help)),
+            );
             taken
         }
     }
@@ -117,10 +119,9 @@ fn listed<'d>(
         } else {
             let message =
                 format!("found `{}`, expected an element from 1 to {count}", shorten(entry.key.value));
-            context.push(
-                Diagnostic::new(codes::COMPACT_ELEMENT, entry.key.span, message)
-                    .help("write the sub-index in decimal, or raise `CompactSubObj`"),
-            );
+            context.push(Diagnostic::new(codes::COMPACT_ELEMENT, entry.key.span, message).help(
+                number::help(entry.key.value, "write the sub-index in decimal, or raise `CompactSubObj`"),
+            ));
         }
     }
     found

@@ -135,7 +135,9 @@ fn data_type(part: &Part<'_>, id: EntryId, form: Form, context: &mut Context<'_>
     let taken = form.standard_type(id, context.standard).unwrap_or(DataType::Domain);
     let message = format!("{id}: there is no data type `{}`; it is taken as {taken}", shorten(text.value));
     let help = "write the index of a data type of CiA 301, such as `0x0007` for UNSIGNED32";
-    context.push(Diagnostic::new(codes::UNKNOWN_DATA_TYPE, text.span, message).help(help));
+    context.push(
+        Diagnostic::new(codes::UNKNOWN_DATA_TYPE, text.span, message).help(number::help(text.value, help)),
+    );
     Spanned::new(taken, text.span)
 }
 
@@ -193,7 +195,8 @@ fn mapping(
             "{id}: found {}, expected 0 or 1",
             context.format.set(Key::Mapping, &shorten(text.value))
         );
-        let mut diagnostic = Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0 or 1");
+        let mut diagnostic = Diagnostic::new(codes::BAD_FLAG, text.span, message)
+            .help(number::help(text.value, "write 0 or 1"));
         let meant = word.map(|word| i128::from(word).to_string());
         diagnostic.edits.extend(meant.map(|meant| Edit { span: text.span, text: meant }));
         context.push(diagnostic);
@@ -220,7 +223,10 @@ pub(super) fn flags(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) -> 
             "{id}: found {}, expected a number",
             context.format.set(Key::ObjectFlags, &shorten(text.value))
         );
-        context.push(Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0, 1, 2 or 3"));
+        context.push(
+            Diagnostic::new(codes::BAD_FLAG, text.span, message)
+                .help(number::help(text.value, "write 0, 1, 2 or 3")),
+        );
         return None;
     };
     words::report(text, number, context.diagnostics);

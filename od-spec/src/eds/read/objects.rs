@@ -119,6 +119,7 @@ fn kind(
         let why = if has_subs { "has sub-indices" } else { "has none" };
         let message = format!("{index}: found {found}, but it {why}; it is taken as {}", taken.name());
         let help = "write 0x7 for VAR, 0x8 for ARRAY, 0x9 for RECORD, 0x2 for DOMAIN";
+        let help = number::help(text.map_or("", |text| text.value), help);
         context.push(Diagnostic::new(codes::BAD_OBJECT_TYPE, place, message).help(help));
     }
     Some(taken)

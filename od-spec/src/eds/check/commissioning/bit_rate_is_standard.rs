@@ -4,7 +4,7 @@ use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity, shorten};
 use crate::eds::coded;
 use crate::eds::names::Topic;
-use crate::eds::number::lenient_integer;
+use crate::eds::number::{help, lenient_integer};
 use crate::eds::view::View;
 use crate::model::BIT_RATES;
 
@@ -40,6 +40,6 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             diagnostic.edits.push(Edit { span: value.span, text: standard.to_string() });
             diagnostic
         }
-        None => diagnostic.help("write 10, 20, 50, 125, 250, 500, 800 or 1000"),
+        None => diagnostic.help(help(value.value, "write 10, 20, 50, 125, 250, 500, 800 or 1000")),
     });
 }

@@ -34,7 +34,10 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             Diagnostic::new(
                 CODE,
                 place,
-                format!("found `{}` behind the section's name, expected the end of the line", shorten(text[end..].trim())),
+                format!(
+                    "found `{}` behind the section's name, expected the end of the line",
+                    shorten(text[end..].trim())
+                ),
             )
             .help("make it a comment on a line of its own; `odgen fix` does")
         });

@@ -34,8 +34,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             continue;
         }
         let count = described(object);
-        let edit =
-            (count > 0).then(|| edits::set(view, part, "SubNumber", &count.to_string())).flatten();
+        let edit = (count > 0).then(|| edits::set(view, part, "SubNumber", &count.to_string())).flatten();
         found.add(part.place(), edit, || {
             if count == 0 {
                 let message = format!("{index} is an ARRAY or RECORD and has no sub-indices");
