@@ -78,7 +78,7 @@ fn model(name: &str, bytes: &[u8]) -> String {
     let mut sources = SourceMap::new();
     let root = add_source(&mut sources, name, bytes.to_vec()).unwrap();
     let compiled = compile(&mut sources, root, &mut NoFiles);
-    let shown = format!("{:#?}", (compiled.system, compiled.node, compiled.stated_node_id));
+    let shown = format!("{:#?}", (compiled.system, compiled.node));
     let is_place = |line: &&str| {
         let line = line.trim_start();
         ["file: FileId", "start: ", "end: "].iter().any(|front| line.starts_with(front)) || line.len() <= 1

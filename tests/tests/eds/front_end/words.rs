@@ -166,7 +166,7 @@ fn a_bit_rate_is_read_in_its_unit() {
         let text = format!(
             "[DeviceInfo]\nBaudRate_125=1\nBaudRate_500=1\n[DeviceComissioning]\nNodeID=5\nBaudrate={text}\n"
         );
-        let node = compiled("a.dcf", &text).0.node.unwrap();
+        let node = compiled("a.dcf", &text).0.node.unwrap().at(None);
         (node.bit_rate, said("a.dcf", &text, "EDS705").len())
     };
     for text in ["500000", "500K", "500 kbit/s", "500kBaud", "0x7A120"] {

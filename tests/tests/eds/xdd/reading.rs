@@ -249,7 +249,7 @@ fn a_bit_rate_of_a_node_that_is_none_is_reported() {
     let read = |rate: &str| {
         let (compiled, _) = compiled("tank.xdc", commissioned(rate));
         let found = said("tank.xdc", commissioned(rate));
-        (compiled.node.unwrap().bit_rate, found.contains("actualBaudRate"))
+        (compiled.node.unwrap().at(None).bit_rate, found.contains("actualBaudRate"))
     };
     assert_eq!((read("125 Kbps"), read("500000")), ((125, false), (500, false)));
     // The highest that the device has, which is what `odgen` takes where nothing is said.
