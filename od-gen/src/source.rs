@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::{FileId, SourceMap};
-use od_spec::{Compiled, Loader, Strictness, add_source, compile_as, part_of};
+use od_spec::{Compiled, Loader, Strictness, add_source, compile_as, may_be_specification, part_of};
 
 /// A little more than the compiler accepts, so that larger files are refused without being read whole.
 const READ_LIMIT: u64 = (64 << 20) + 1;
@@ -22,7 +22,7 @@ pub struct FileLoader {
 impl Loader for FileLoader {
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String> {
         let path = Path::new(from).parent().unwrap_or(Path::new("")).join(path);
-        let bytes = read_bytes(&path)?;
+        let bytes = read_file(&path)?;
         self.read.push(path);
         Ok(bytes)
     }
@@ -76,10 +76,11 @@ fn refused(diagnostic: Diagnostic) -> Compiled {
 /// The file that a part of a specification belongs to, where it is there; of any other file, the file itself.
 pub fn whole(path: &Path) -> PathBuf {
     let is_specification = |name: &OsStr| name.as_encoded_bytes().ends_with(b".yaml");
-    let text = path.file_name().filter(|name| is_specification(name)).and_then(|_| fs::read(path).ok());
+    let text = path.file_name().filter(|name| is_specification(name)).and_then(|_| read_file(path).ok());
     let named = text.as_deref().and_then(part_of);
     let whole = named.map(|name| plain(&path.parent().unwrap_or(Path::new("")).join(name)));
-    whole.filter(|whole| whole.is_file()).unwrap_or_else(|| path.to_owned())
+    let is_one = |whole: &PathBuf| read_file(whole).is_ok_and(|text| may_be_specification(&text));
+    whole.filter(is_one).unwrap_or_else(|| path.to_owned())
 }
 
 /// A path without the steps down that a step up takes back.
@@ -142,15 +143,25 @@ pub fn open(path: &Path, help: &str, sources: &mut SourceMap) -> Result<FileId, 
     add_source(sources, &name, bytes)
 }
 
-/// The bytes of a file that is no text.
+/// The bytes of a file that another file names: a regular file. A device may have no end, and a pipe waits for a writer
+/// as soon as it is opened.
 ///
 /// # Errors
 /// Why it cannot be read, in a few words.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, String> {
-    read_bytes(path)
+    match fs::metadata(path) {
+        Ok(metadata) if !metadata.is_file() && !metadata.is_dir() => {
+            Err("it is not a regular file".to_owned())
+        }
+        Ok(_) | Err(_) => read_bytes(path),
+    }
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
+/// The bytes of a file that the user names, which may be a pipe.
+///
+/// # Errors
+/// Why it cannot be read, in a few words.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
     let describe = |error: io::Error| match error.kind() {
         io::ErrorKind::NotFound => "no such file".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),

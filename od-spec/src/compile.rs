@@ -90,7 +90,13 @@ pub fn compile_as(
 
 /// Whether a text is a specification, a part of one or a library: its first key says so.
 pub fn is_specification(text: &str) -> bool {
-    yaml::begins_with(text, "od-spec")
+    yaml::begins_with(text, keys::SPEC_VERSION)
+}
+
+/// Whether a text shows by its beginning or its name what it is, and is no specification.
+pub(crate) fn is_known(file: &SourceFile) -> bool {
+    let (name, text) = (file.name(), file.text());
+    eds::is_eds(name, text) || xdd::is_xdd(name, text) || is_parameter_file(text) || is_plant(text)
 }
 
 /// A file of this project that says nothing about what a device is, with the command that takes it.
@@ -133,7 +139,7 @@ fn compile_eds(
     let facts = FileFacts { name, encoding: file.encoding(), format: rules.format };
     let view = View::new(&document, root, eds::is_dcf(name), facts);
     eds::check::document(&view, &mut diagnostics);
-    let read = read(&view, file.name(), &mut diagnostics);
+    let read = read(&view, file.name(), standard::data_type, &mut diagnostics);
     resolved(rules, read, strictness, diagnostics)
 }
 
@@ -148,13 +154,14 @@ fn compile_xdd(
     let mut diagnostics = Diagnostics::new();
     let file = sources.file(root);
     let text = straight(file.text());
-    let Some(xdd::Translated { document, texts }) = xdd::translate(root, &text, &mut diagnostics) else {
+    let translated = xdd::translate(root, &text, standard::data_type, &mut diagnostics);
+    let Some(xdd::Translated { document, texts }) = translated else {
         return Compiled::refused(diagnostics);
     };
     let name = eds::file_name(file.name());
     let facts = FileFacts { name, encoding: file.encoding(), format: rules.format };
     let view = View::new(&document, root, xdd::is_xdc(name), facts);
-    let mut read = read(&view, file.name(), &mut diagnostics);
+    let mut read = read(&view, file.name(), standard::data_type, &mut diagnostics);
     texts.add_to(&mut read.spec);
     let mut compiled = resolved(rules, read, strictness, diagnostics);
     compiled.diagnostics.without_edits();
@@ -272,7 +279,7 @@ fn libraries(
         let built_in = LIBRARIES.iter().find(|(library, _)| *library == name.value);
         let id = match built_in {
             Some((library, text)) => sources.add(format!("<{library}>"), *text),
-            None => match files::read(name, &from, loader, missing_library) {
+            None => match files::read(name, &from, loader, missing_library, no_library) {
                 Ok(text) => sources.add(files::beside(&from, &name.value), text),
                 Err(diagnostic) => {
                     diagnostics.push(*diagnostic);
@@ -293,14 +300,7 @@ fn libraries(
             continue;
         };
         if library.profile.is_none() || !library.uses.is_empty() {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::NOT_A_LIBRARY,
-                    name.span,
-                    format!("`{}` is no library", shorten(&name.value)),
-                )
-                .help("a library has `profile: NAME` at its top level and no `uses:` of its own"),
-            );
+            diagnostics.push(no_library(name));
             complete = false;
             continue;
         }
@@ -312,6 +312,12 @@ fn libraries(
         libraries.push(library);
     }
     complete.then_some(libraries)
+}
+
+fn no_library(name: &Spanned<String>) -> Diagnostic {
+    let message = format!("`{}` is no library", shorten(&name.value));
+    Diagnostic::new(codes::NOT_A_LIBRARY, name.span, message)
+        .help("a library has `profile: NAME` at its top level and no `uses:` of its own")
 }
 
 fn missing_library(name: &Spanned<String>, reason: &str) -> Diagnostic {

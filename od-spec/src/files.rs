@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Label, codes, shorten};
 use crate::encoding::Encoding;
+use crate::keys::{PART_OF, SPEC_VERSION};
 use crate::source::{FileId, SourceMap, Span, Spanned};
 use crate::{eds, encoding, other_bus, xdd};
 
@@ -30,14 +31,34 @@ impl Loader for NoFiles {
     }
 }
 
-/// The text of the file of a name that stands in the file `from`. `missing` says that there is none, with a reason.
+/// Whether a text may be a specification, a part of one or a library: it has the key that all of them have, or that of a
+/// part. Any other text may be anybody's: no message quotes it.
+pub fn may_be_specification(text: &[u8]) -> bool {
+    [SPEC_VERSION, PART_OF].into_iter().any(|key| has_key(text, key))
+}
+
+/// Whether a key may stand somewhere in a text.
+fn has_key(text: &[u8], key: &str) -> bool {
+    memchr::memmem::find_iter(text, key).any(|at| {
+        let rest = text.get(at + key.len()..).unwrap_or_default();
+        let unquoted = rest.strip_prefix(b"\"").or_else(|| rest.strip_prefix(b"'")).unwrap_or(rest);
+        unquoted.trim_ascii_start().starts_with(b":")
+    })
+}
+
+/// The text of the file of a name that stands in the file `from`. `missing` says that there is none, with a reason, and
+/// `other` that it is something else.
 pub(crate) fn read(
     name: &Spanned<String>,
     from: &str,
     loader: &mut dyn Loader,
     missing: impl FnOnce(&Spanned<String>, &str) -> Diagnostic,
+    other: impl FnOnce(&Spanned<String>) -> Diagnostic,
 ) -> Result<String, Box<Diagnostic>> {
     let bytes = loader.load(&name.value, from).map_err(|reason| Box::new(missing(name, &reason)))?;
+    if bytes.len() <= LARGEST_FILE && !may_be_specification(&bytes) {
+        return Err(Box::new(other(name)));
+    }
     read_text(&name.value, bytes).map_err(|mut diagnostic| {
         diagnostic.labels.push(Label { span: name.span, text: "used here".to_owned() });
         diagnostic

@@ -64,7 +64,7 @@ pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues, Te
 pub use compile::{Compiled, Strictness, compile, compile_as, is_specification};
 pub use decode::is_device_key;
 pub use diag::nearest;
-pub use files::{Loader, NoFiles, add_source, read_text};
+pub use files::{Loader, NoFiles, add_source, may_be_specification, read_text};
 pub use fix::{Change, Fixed, fix};
 pub use layout::layout;
 pub use library::shipped::{LIBRARIES, features as features_of_text};

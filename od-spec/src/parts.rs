@@ -69,7 +69,7 @@ fn part(
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
 ) -> Option<Node> {
-    let text = match files::read(name, from, loader, missing) {
+    let text = match files::read(name, from, loader, missing, |name| no_part(name, from)) {
         Ok(text) => text,
         Err(diagnostic) => {
             diagnostics.push(*diagnostic);
@@ -79,15 +79,18 @@ fn part(
     let file = sources.add_part(files::beside(from, &name.value), text, whole);
     let part = yaml::parse(file, sources.file(file), diagnostics)?;
     let Some(stated) = part.get(PART_OF) else {
-        let message = format!("`{}` does not say that it is a part", shorten(&name.value));
-        let help =
-            format!("write `{PART_OF}: {}` at its top; a library is named under `uses:`", file_name(from));
-        diagnostics.push(Diagnostic::new(codes::NOT_A_PART, name.span, message).help(help));
+        diagnostics.push(no_part(name, from));
         return None;
     };
     say_whose(stated, name.span, from, diagnostics);
     decode::check(&part, &PART, diagnostics);
     Some(part)
+}
+
+fn no_part(name: &Spanned<String>, from: &str) -> Diagnostic {
+    let message = format!("`{}` does not say that it is a part", shorten(&name.value));
+    let help = format!("write `{PART_OF}: {}` at its top; a library is named under `uses:`", file_name(from));
+    Diagnostic::new(codes::NOT_A_PART, name.span, message).help(help)
 }
 
 fn missing(name: &Spanned<String>, reason: &str) -> Diagnostic {

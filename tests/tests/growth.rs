@@ -2,10 +2,15 @@
 //! bytes that are asked for count it: they are the same in every run. Comparisons ask for none; `tests/bench/instructions.py`
 //! counts these.
 
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::collections::BTreeSet;
+
 use allocation_counter::{AllocationInfo, measure};
 use od_formats::{eds, findings, json};
+use od_spec::diag::render::{Format, render};
 use od_spec::source::SourceMap;
-use od_spec::{Compiled, NoFiles, compile};
+use od_spec::{Compiled, NoFiles, add_source, compile};
 use od_tests::patterns::{Pattern, RIGHT, WRONG};
 
 /// What a text takes from its bytes to its messages or, where it has none, its EDS and JSON files.
@@ -116,5 +121,99 @@ fn little_text_takes_little_memory() {
     for (name, text) in cases {
         let used = work(&text);
         assert!(used.bytes_max < MOST, "{name}: {} bytes at one time for {}", used.bytes_max, text.len());
+    }
+}
+
+/// What a file of a name takes from its bytes to its messages, and these messages.
+fn said(name: &str, text: &str) -> (AllocationInfo, String) {
+    let mut said = String::new();
+    let used = measure(|| {
+        let mut sources = SourceMap::new();
+        let root = add_source(&mut sources, name, text.into()).unwrap();
+        let Compiled { diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
+        said = render(&diagnostics, &sources, Format::Short, false);
+    });
+    (used, said)
+}
+
+/// Lines without anything are no more than their text and a few bytes each.
+#[test]
+fn line_breaks_take_little_memory() {
+    const LINES: usize = 2_000_000;
+    for line_break in ["\n", "\r\n"] {
+        let text = format!("[FileInfo]{line_break}FileVersion=1") + &line_break.repeat(LINES) + "[2000]";
+        let (used, said) = said("a.eds", &text);
+        let beside = used.bytes_max.saturating_sub(text.len() as u64);
+        assert!(beside < 10 * LINES as u64, "{beside} bytes beside {}", text.len());
+        // A place behind them is right.
+        assert!(said.contains(&format!("a.eds:{}:2: ", LINES + 2)) && !said.contains("EDS123"), "{said}");
+    }
+}
+
+/// An element has a few attributes; the parser would compare each with all others.
+#[test]
+fn attributes_of_an_element_have_a_limit() {
+    let file = |number: usize| {
+        let more = (0..number).map(|at| format!(" a{at}='>\"'")).collect::<String>();
+        format!(
+            "<?xml version=\"1.0\"?><!-- <a '> --><x><CANopenObjectList><![CDATA[<b \"]]>\n<CANopenObject{more} index=\"2000\" name=\"level\" \
+             objectType=\"7\" dataType=\"0005\" accessType=\"ro\"/></CANopenObjectList></x>"
+        )
+    };
+    let few = said("a.xdd", &file(200)).1;
+    assert!(!few.contains("OD0116") && !few.contains("XDD1"), "{few}");
+    for many in [300, 500_000] {
+        let (used, said) = said("a.xdd", &file(many));
+        assert!(said.contains("a.xdd:2:1: error[OD0116]: an element has more than 256 attributes"), "{said}");
+        assert!(used.bytes_max < 20 << 20, "{}", used.bytes_max);
+    }
+}
+
+/// Any number of objects can refer to one parameter, with all its texts.
+#[test]
+fn texts_that_objects_share_take_limited_memory() {
+    let objects = (0x2000..0x5000).map(|index| {
+        format!("<CANopenObject index=\"{index:X}\" name=\"o{index}\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\" uniqueIDRef=\"p\"/>")
+    });
+    let text = format!(
+        "<x><parameter uniqueID=\"p\"><description lang=\"en\">{}</description></parameter><CANopenObjectList>{}</CANopenObjectList></x>",
+        "long text ".repeat(10_000),
+        objects.collect::<String>()
+    );
+    let (used, said) = said("a.xdd", &text);
+    assert!(said.contains("error[OD0116]: more than 64 MiB of repeated text"), "{said}");
+    assert!(used.bytes_max < 600 << 20, "{}", used.bytes_max);
+}
+
+/// However many mistakes there are, what is written about them is limited.
+#[test]
+fn messages_do_not_flood() {
+    let objects = (0x2000..0xA000).map(|index| {
+        format!("[{index:X}]\nParameterName=o{index}\nObjectType=7\nDataType=6\nAccessType=often\nDefaultValue=+1\nPDOMapping=0\n")
+    });
+    let text = objects.collect::<String>();
+    let mut sources = SourceMap::new();
+    let root = add_source(&mut sources, "a.eds", text.into()).unwrap();
+    let Compiled { diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
+    let codes: BTreeSet<&str> = diagnostics.iter().map(|one| one.code.id).collect();
+    assert!(diagnostics.iter().count() > 60_000 && codes.contains("EDS406"));
+    let files = [findings::Findings { name: "a.eds", diagnostics: &diagnostics, sources: &sources }];
+    for (text, most, rest) in [
+        (render(&diagnostics, &sources, Format::Human, false), 100, "and 32668 more like these (EDS406)"),
+        (render(&diagnostics, &sources, Format::Short, false), 1_000, "and 31768 more like these (EDS406)"),
+        (
+            findings::json(&diagnostics, &sources),
+            10_000,
+            "\"message\":\"22768 more messages of this code are left out\"",
+        ),
+        (findings::github(&diagnostics, &sources), 10_000, "22768 more messages of this code are left out"),
+        (
+            findings::sarif("1", |_| String::new(), &files),
+            10_000,
+            "22768 more messages of this code are left out",
+        ),
+    ] {
+        assert!(text.contains(rest), "{rest}");
+        assert_eq!(text.matches("there is no access type `often`").count(), most);
     }
 }

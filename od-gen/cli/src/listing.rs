@@ -10,7 +10,7 @@ use od_spec::source::SourceMap;
 /// How many findings of one code are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Most {
-    /// Every one.
+    /// All, as far as people read.
     All,
     /// Of an EDS: a tool wrote it, and made one mistake everywhere.
     OfEds,
@@ -23,8 +23,8 @@ impl Most {
         match (self, severity) {
             (Self::OfEds, _) => 3,
             (Self::OfSpecification, Severity::Error | Severity::Warning) => 10,
-            // Notes of a specification are a list that somebody asked for.
-            (Self::OfSpecification, Severity::Note) | (Self::All, _) => usize::MAX,
+            // Notes of a specification are a list that somebody asked for; a list of more is one for programs.
+            (Self::OfSpecification, Severity::Note) | (Self::All, _) => 1_000,
         }
     }
 }

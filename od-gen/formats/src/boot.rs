@@ -6,10 +6,15 @@
 use std::fmt::Write as _;
 
 use od_spec::Commissioning;
-use od_spec::model::{DataType, Dictionary, EdsPolicy, Entry, EntryId, NoSuchValue, Storage, System, Value};
+use od_spec::model::{
+    DataType, Dictionary, EdsPolicy, Entry, EntryId, Index, NoSuchValue, Storage, System, Value,
+};
 use od_spec::wording::{Notation, Wording};
 
 const WORDING: Wording = Wording::english(Notation::Diagnostic);
+
+/// CODESYS, asked to create all SDOs, leaves the objects of the communication profile to its own settings.
+const FIRST_OF_CODESYS: Index = Index(0x2000);
 
 /// Who writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -201,9 +206,11 @@ pub fn explain(system: &System, device: &Dictionary, node: &Commissioning) -> Re
         format!("What is written into {} node {} at boot, made from this DCF:\n", device.key, node.node);
     for (number, writer) in (1..).zip(Writer::ALL) {
         let writes = writes(system, device, node, writer)?;
-        let dangerous = writes.iter().filter(|write| write.mark.is_dangerous()).count();
-        let danger = if dangerous == 0 { String::new() } else { format!(", {dangerous} of them DANGEROUS") };
-        let _ = write!(out, "\n{number}. {}: {} writes{danger}\n", writer.words(), writes.len());
+        let _ = write!(out, "\n{number}. {}: {}\n", writer.words(), counted(writes.iter()));
+        if writer == Writer::EverySdo {
+            let of_codesys = writes.iter().filter(|write| write.id.index >= FIRST_OF_CODESYS);
+            let _ = writeln!(out, "   CODESYS does so from {FIRST_OF_CODESYS} on: {}", counted(of_codesys));
+        }
         for write in &writes {
             line(device, node, write, &mut out);
         }
@@ -212,6 +219,20 @@ pub fn explain(system: &System, device: &Dictionary, node: &Commissioning) -> Re
         "\n*  set, and not the default; s: over a value that the device keeps\n!! locked, a command, or a default that nobody set and that goes over what was set or is kept\n",
     );
     Ok(out)
+}
+
+/// How many writes there are, and how many of them may destroy something.
+fn counted<'w>(writes: impl Iterator<Item = &'w BootWrite>) -> String {
+    let (mut all, mut dangerous) = (0, 0);
+    for write in writes {
+        all += 1;
+        dangerous += usize::from(write.mark.is_dangerous());
+    }
+    if dangerous == 0 {
+        format!("{all} writes")
+    } else {
+        format!("{all} writes, {dangerous} of them DANGEROUS")
+    }
 }
 
 fn line(device: &Dictionary, node: &Commissioning, write: &BootWrite, out: &mut String) {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use od_gen::source::{plain, read_file};
-use od_spec::{Loader, part_of};
+use od_spec::{Loader, may_be_specification, part_of};
 
 use super::buffer::Buffer;
 use super::place::Place;
@@ -62,6 +62,6 @@ pub(super) fn whole(place: &Place, buffers: &Buffers) -> Place {
     };
     let whole = named
         .map(|name| Place::File(plain(&path.parent().unwrap_or(Path::new("")).join(name))))
-        .filter(|whole| buffers.contains_key(whole) || whole.path().is_some_and(Path::is_file));
+        .filter(|whole| bytes_of(whole, buffers).is_ok_and(|text| may_be_specification(&text)));
     whole.unwrap_or_else(|| place.clone())
 }

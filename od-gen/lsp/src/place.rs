@@ -53,6 +53,7 @@ impl Place {
     }
 
     /// Its path, if it is a file.
+    #[cfg(test)]
     pub(super) fn path(&self) -> Option<&Path> {
         match self {
             Place::File(path) => Some(path),

@@ -50,19 +50,6 @@ pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
 
 /// The sections of a text, of which the reader knows no more than that an empty line stands between them.
 fn blocks<'t>(text: &'t str, refusals: &mut Refusals) -> Vec<Block<'t>> {
-    let mut blocks: Vec<Vec<Row<'t>>> = vec![Vec::new()];
-    let rows: Vec<Row<'t>> = rows(text).collect();
-    let mut at = 0;
-    while let Some(row) = rows.get(at) {
-        // Of three empty lines the third belongs to the next section.
-        let is_between = row.text.is_empty() && blocks.last().is_some_and(|block| !block.is_empty());
-        match (is_between, blocks.last_mut()) {
-            (true, _) => blocks.push(Vec::new()),
-            (false, Some(block)) => block.push(*row),
-            (false, None) => {}
-        }
-        at += 1;
-    }
     // A text that ends with several empty lines has a section of one empty line for the reader.
     let ends_empty = text.replace("\r\n", "\n").replace('\r', "\n");
     let trailing = ends_empty.len() - ends_empty.trim_end_matches('\n').len();
@@ -70,7 +57,18 @@ fn blocks<'t>(text: &'t str, refusals: &mut Refusals) -> Vec<Block<'t>> {
         let end = Place { start: text.len(), end: text.len() };
         refusals.add(end, Cause::Text, "empty lines at the end of the file");
     }
-    blocks.into_iter().filter_map(|rows| block(&rows, refusals)).collect()
+    let (mut blocks, mut begun) = (Vec::new(), Vec::new());
+    for row in rows(text) {
+        // Of three empty lines the third belongs to the next section.
+        if row.text.is_empty() && !begun.is_empty() {
+            blocks.extend(block(&begun, refusals));
+            begun.clear();
+        } else {
+            begun.push(row);
+        }
+    }
+    blocks.extend(block(&begun, refusals));
+    blocks
 }
 
 fn block<'t>(rows: &[Row<'t>], refusals: &mut Refusals) -> Option<Block<'t>> {

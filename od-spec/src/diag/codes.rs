@@ -285,13 +285,13 @@ codes! {
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
         )]
     XDD_ATTRIBUTE Error / Warning "XDD202" "an attribute that cannot be understood":
-        "The attribute is missing, or has another value than CiA 311 knows. The message says what is taken instead: an access is read-only and a mapping none, until somebody says otherwise; an object is what its sub-objects make of it."
+        "The attribute is missing, or has another value than CiA 311 knows. The message says what is taken instead. Words that leave no doubt (`UNSIGNED16`, `readWrite`, `VAR`) are read as what they say; otherwise an access is read-only, a mapping none, a bit rate not stated, and an object what its sub-objects make of it."
         [Example::xdd(
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"readable\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\"/>\n</CANopenObjectList>"
         )]
     XDD_NO_TYPE Error "XDD203" "an entry without a data type":
-        "Neither the object nor the parameter that it refers to says a data type of CiA 301. Nobody knows how many bytes the entry has; it is taken as a DOMAIN, a block of unknown length. Types of 24, 40, 48 and 56 bits have no element of their own, so that `dataType` of the object has to say them."
+        "Neither the object nor the parameter that it refers to says a data type of CiA 301. The entry has the type that CiA 301 defines for it; any other is taken as a DOMAIN, a block of unknown length. Types of 24, 40, 48 and 56 bits have no element of their own, so that `dataType` of the object has to say them."
         [Example::xdd(
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" accessType=\"rw\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"

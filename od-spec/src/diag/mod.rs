@@ -18,7 +18,7 @@ pub use nearest::nearest;
 pub(crate) use repeated::Repeated;
 
 use std::cell::Cell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::source::Span;
 use crate::visible::{is_hidden, visible};
@@ -374,6 +374,19 @@ impl Diagnostics {
     /// The messages, in order.
     pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
         self.list.iter()
+    }
+
+    /// The first messages of each code, at most so many of one, in order; and how many more a code has.
+    pub fn first_of_each_code(&self, most: usize) -> (Vec<&Diagnostic>, Vec<(&'static Code, usize)>) {
+        let mut seen: BTreeMap<&'static Code, usize> = BTreeMap::new();
+        let mut is_shown = |diagnostic: &&Diagnostic| {
+            let of_code = seen.entry(diagnostic.code).or_default();
+            *of_code += 1;
+            *of_code <= most
+        };
+        let shown = self.list.iter().filter(|one| is_shown(one)).collect();
+        let more = seen.into_iter().filter(|(_, count)| *count > most);
+        (shown, more.map(|(code, count)| (code, count - most)).collect())
     }
 
     /// Whether there are none.

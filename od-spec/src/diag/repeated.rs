@@ -16,6 +16,11 @@ impl Repeated {
         Self { first: None, places: 0, edits: Vec::new() }
     }
 
+    /// Whether no place was added.
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.places == 0
+    }
+
     /// Adds a place with what puts it right there; `say` makes the message if the place is the first of the file.
     pub(crate) fn add(
         &mut self,

@@ -28,15 +28,15 @@ codes! {
     OBJECT_LEFT_OUT Warning Note "EDS401" "CiA 306 4.6.3.2" "an object that is no entry of the dictionary":
         "Data types described as objects (DEFTYPE, DEFSTRUCT, indices below 1000h) and reserved object types are not among the objects that can be read and written. They are left out of the dictionary."
     BAD_OBJECT_TYPE Error Error "EDS402" "CiA 306 4.6.3.2" "an object type that does not fit":
-        "`ObjectType` is 0x2 (DOMAIN), 0x7 (VAR), 0x8 (ARRAY) or 0x9 (RECORD); a sub-index is a VAR or a DOMAIN, and only ARRAY and RECORD have sub-indices. What the sections describe is taken instead of what the key says."
+        "`ObjectType` is a number: 0x2 (DOMAIN), 0x7 (VAR), 0x8 (ARRAY) or 0x9 (RECORD). A sub-index is a VAR or a DOMAIN, and only ARRAY and RECORD have sub-indices. A name such as `RECORD` is read as its number, which `odgen fix` writes. Where the sections describe something else than the key says, the sections count."
     MISSING_DATA_TYPE Error Error "EDS403" "CiA 306 4.6.3.2" "an entry without a data type":
-        "Every VAR, every sub-index and every compact array needs `DataType`. Without it nobody knows how many bytes the entry has: several readers stop here. The entry is taken as a DOMAIN, a block of unknown length; sub-index 0 of a structured object as UNSIGNED8."
+        "Every VAR, every sub-index and every compact array needs `DataType`. Without it the number of bytes is unknown, and several readers stop here. An entry whose type CiA 301 defines has that type, which `odgen fix` writes: 1017h is UNSIGNED16, sub-index 0 of every ARRAY and RECORD UNSIGNED8. Any other entry is taken as a DOMAIN, a block of unknown length."
     UNKNOWN_DATA_TYPE Error Error "EDS404" "CiA 301 7.4.1" "an unknown data type":
-        "`DataType` is the index of one of the data types of CiA 301, such as 0x0007 for UNSIGNED32. The entry is taken as a DOMAIN, a block of unknown length."
+        "`DataType` is the index of one of the data types of CiA 301, such as 0x0007 for UNSIGNED32. A name that leaves no doubt (`UNSIGNED32`, `U32`) is read as its index, which `odgen fix` writes; `INT` and `UINT` have 16 bits in a PLC and 32 in C. Otherwise the entry has the type that CiA 301 defines for it, or is taken as a DOMAIN, a block of unknown length."
     MISSING_ACCESS Error Error "EDS405" "CiA 306 4.6.3.2" "an entry without an access type":
         "Every entry needs `AccessType`; only for a DOMAIN the standard says what is meant without it: rw. Nothing tells whether the entry may be written, so it is taken as read-only until somebody says otherwise."
     UNKNOWN_ACCESS Error Error "EDS406" "CiA 306 4.6.3.2" "an unknown access type":
-        "The access types are `ro`, `wo`, `rw`, `rwr`, `rww` and `const`. Where the letters leave no doubt (`R`, `W`), they are taken so; everything else is taken as read-only until somebody says otherwise."
+        "The access types are `ro`, `wo`, `rw`, `rwr`, `rww` and `const`. Other words that leave no doubt (`R/W`, `readOnly`, `W`) are read as what they say, and `odgen fix` writes the access type; everything else is taken as read-only."
     ACCESS_SPELLING Warning Note "EDS407" "CiA 306 4.6.3.2" "an access type in other letters":
         "The access types are written `ro`, `wo`, `rw`, `rwr`, `rww` and `const`, in small letters. Some readers compare letter by letter, and take `RW` for nothing they know."
     MISSING_NAME Error Warning "EDS408" "CiA 306 4.6.3.2" "an object or entry without a name":
@@ -48,7 +48,7 @@ codes! {
     BAD_SUB_INDEX Error Error "EDS411" "CiA 306 4.6.3.2" "a sub-index that no entry can have":
         "Sub-indices are written in hexadecimal, from 1 to FE; FFh is reserved for the structure of the object. The section is left out."
     BAD_FLAG Error Error "EDS412" "CiA 306 4.6.3.2" "a key that is neither 0 nor 1":
-        "`PDOMapping` is 0 or 1, `ObjFlags` a number whose bits 0 and 1 have a meaning. What cannot be read counts as 0: not mappable, no flags."
+        "`PDOMapping` is 0 or 1, `ObjFlags` a number whose bits 0 and 1 have a meaning. `yes` and `no` are read as 1 and 0, which `odgen fix` writes. What cannot be read counts as 0: not mappable, no flags."
     BAD_COUNT Error Error "EDS413" "CiA 306 4.6.3.4.2" "a compact array of an impossible size":
         "`CompactSubObj` is the number of elements, 1 to 254. A larger number is taken as 254; what is no number leaves the array without elements."
     COMPACT_ELEMENT Error Error "EDS414" "CiA 306 4.6.3.4.2" "an element that a compact array does not have":

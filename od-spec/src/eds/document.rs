@@ -200,11 +200,16 @@ impl<'d, 't> SectionRef<'d, 't> {
         self.body().iter().filter(|line| line.kind() == LineKind::KeyValue)
     }
 
-    /// The comments directly above the header, as they are behind their `;`.
+    /// The comments directly above the header, as they are behind their `;`, and what follows the name on its line.
     pub(crate) fn comments_at_header(&self) -> impl Iterator<Item = &'d str> + use<'d, 't> {
         let before = &self.document.lines[..self.header];
         let above = before.iter().rev().take_while(|line| line.kind() == LineKind::Comment).count();
-        before[before.len() - above..].iter().filter_map(Line::comment)
+        before[before.len() - above..].iter().filter_map(Line::comment).chain(self.comment_after_name())
+    }
+
+    /// The comment that follows the name on its line.
+    pub(super) fn comment_after_name(&self) -> Option<&'d str> {
+        self.header().after_name().map(|(_, text)| text).filter(|text| !text.is_empty())
     }
 
     /// The comments above the header, behind the last key of the section before; without their `;` and the blank behind it.

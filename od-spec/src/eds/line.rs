@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::source::{FileId, Span};
 
-/// A line and what ends it.
+/// A line and what ends it. Empty lines that follow each other are one, with the breaks between them in its text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Line<'t> {
     text: Cow<'t, str>,
@@ -131,6 +131,14 @@ impl<'t> Line<'t> {
         self.end
     }
 
+    /// How many lines of the text it stands for.
+    pub(in crate::eds) fn number(&self) -> usize {
+        match self.content {
+            Content::Blank if !self.end.text().is_empty() => 1 + self.text.matches(self.end.text()).count(),
+            _ => 1,
+        }
+    }
+
     /// What the line is.
     pub const fn kind(&self) -> LineKind {
         match self.content {
@@ -164,6 +172,15 @@ impl<'t> Line<'t> {
         }
         let text = self.text.trim_start_matches(is_blank).get(1..)?;
         Some(text.strip_prefix(' ').unwrap_or(text).trim_end_matches(is_blank))
+    }
+
+    /// Where the text after a section's name begins, which is no part of it, and what it says: a comment that has no line of
+    /// its own.
+    pub(super) fn after_name(&self) -> Option<(usize, &str)> {
+        let Content::Header { .. } = self.content else { return None };
+        let end = self.text.find(']')? + 1;
+        let text = self.text[end..].trim();
+        (!text.is_empty()).then(|| (end, text.trim_start_matches([';', '#']).trim()))
     }
 
     /// Where a part of the line stands in its file, in bytes of the line's text.

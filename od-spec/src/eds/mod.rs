@@ -4,11 +4,12 @@
 //! nothing of devices, objects or types. It stands with the other front ends and not with the model, so that a text can be
 //! read, mended, compared and written back before anybody has understood it.
 
-mod bit_rate;
 pub(crate) mod check;
+pub(crate) mod coded;
 pub mod codes;
 pub(crate) mod dates;
 mod document;
+mod edits;
 pub(crate) mod example;
 mod extras;
 mod line;

@@ -78,6 +78,19 @@ pub(crate) fn integer(text: &str) -> Option<Number> {
     Some(Number { value: if negative { -magnitude } else { magnitude }, deviations })
 }
 
+/// What to do about a text that is not a number: `otherwise`, unless zeros in front of a decimal number are the reason.
+pub(crate) fn help(text: &str, otherwise: &str) -> String {
+    let bare = bare(text, &mut Vec::new()).trim_start_matches('+');
+    let digits = bare.strip_prefix('-').unwrap_or(bare);
+    let is_number = digits.starts_with('0') && digits.bytes().all(|byte| byte.is_ascii_digit());
+    match (digits.chars().find(|digit| matches!(digit, '8' | '9')), bare.parse::<i128>()) {
+        (Some(digit), Ok(number)) if is_number => format!(
+            "write `{number}`; a leading 0 makes a number octal in CiA 306, and {digit} is not an octal digit"
+        ),
+        _ => otherwise.to_owned(),
+    }
+}
+
 /// An integer as it stands in the sections about the file and the device, whatever it is spelled like.
 pub(crate) fn lenient_integer(text: &str) -> Option<i128> {
     integer(text).map(|number| number.value)

@@ -73,11 +73,14 @@ impl Document<'_> {
         }
         let sections: Vec<SectionRef<'_, '_>> = self.sections().collect();
         for (at, section) in sections.iter().enumerate() {
+            let own = owner(section.name());
+            let after_name = section.comment_after_name().filter(|text| own == Owner::File || is_code(text));
+            remarks.extend(after_name.map(|text| Remark { owner: own, text }));
             let body = section.body();
             let is_key = |line: &super::Line<'_>| !matches!(line.kind(), LineKind::Blank | LineKind::Comment);
             let keys_end = body.iter().rposition(is_key).map_or(0, |last| last + 1);
             for text in body[..keys_end].iter().filter_map(super::Line::comment) {
-                remarks.push(Remark { owner: owner(section.name()), text });
+                remarks.push(Remark { owner: own, text });
             }
             let next = sections.get(at + 1).map_or(Owner::File, |next| owner(next.name()));
             let above = &body[keys_end..];

@@ -12,6 +12,13 @@ pub(super) fn lines(text: &str) -> Vec<Line<'_>> {
     let mut lines = Vec::with_capacity(bytes.len() / 14 + 1);
     let mut start = 0;
     while start < bytes.len() {
+        if let Some(length) = empty(&bytes[start..]) {
+            let line_end = if bytes[start] == b'\n' { LineEnd::Lf } else { LineEnd::CrLf };
+            let text = &text[start..start + length - line_end.text().len()];
+            lines.push(Line::read(text, offset(start), Content::Blank, line_end));
+            start += length;
+            continue;
+        }
         let end = memchr::memchr2(b'\r', b'\n', &bytes[start..]).map_or(bytes.len(), |length| start + length);
         let line_end = match (bytes.get(end), bytes.get(end + 1)) {
             (Some(b'\r'), Some(b'\n')) => LineEnd::CrLf,
@@ -24,6 +31,14 @@ pub(super) fn lines(text: &str) -> Vec<Line<'_>> {
         start = end + line_end.text().len();
     }
     lines
+}
+
+/// The length of empty lines that follow each other, all with one break. They are one line of the document: a text of nothing
+/// else would take many times its size.
+fn empty(bytes: &[u8]) -> Option<usize> {
+    let end: &[u8] = if bytes.starts_with(b"\r\n") { b"\r\n" } else { b"\n" };
+    let number = bytes.chunks(end.len()).take_while(|chunk| *chunk == end).count();
+    (number > 0).then_some(number * end.len())
 }
 
 fn content(line: &str) -> Content {

@@ -12,6 +12,8 @@ use super::shape::{Key, KeyKind, Keys, NameOf, Shape, U32};
 use super::table::{joined, key_list, keys};
 use super::types::{TYPE, UNIT};
 
+/// The first key of a specification, of its parts and of a library.
+pub const SPEC_VERSION: &str = "od-spec";
 /// The key that names the parts of a specification.
 pub const PARTS: &str = "parts";
 /// The key by which a part names its specification.

@@ -21,7 +21,7 @@ pub use constraints::CONSTRAINT;
 pub use devices::{CHANNEL, DEVICE, FILE};
 pub use entry::{ENTRY, ENTRY_EDS_KEYS, SPECIAL};
 pub use errors::{ANY_ERROR, ERROR};
-pub use file::{ALLOWED, PART, PART_OF, PARTS, REVISION, SOURCE, SPEC, VENDOR};
+pub use file::{ALLOWED, PART, PART_OF, PARTS, REVISION, SOURCE, SPEC, SPEC_VERSION, VENDOR};
 pub use libraries::{AXES, FEATURE};
 pub use machines::{COMMAND, MACHINE, STATE, TRANSITION};
 pub use manual::{

@@ -7,6 +7,9 @@ use super::{
 };
 use crate::source::Span;
 
+/// The bit rates of CiA 301 in kbit/s, for which an EDS has keys.
+pub const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
+
 /// The object dictionary of one device, with what an EDS says about the device.
 #[derive(Debug, Clone)]
 #[non_exhaustive]

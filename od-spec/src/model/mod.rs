@@ -38,7 +38,7 @@ pub use axis::{Axis, AxisMark, AxisReach, AxisSpan};
 pub use condition::{
     ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Incomputable, Outcome, Term, Values,
 };
-pub use device::{AnyError, Date, DateTime, DeviceInfo, Dictionary, FileInfo};
+pub use device::{AnyError, BIT_RATES, Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
     BitTable, Content, Document, Erratum, ErratumKind, ErratumPlace, Figure, Issue, LadderTable, PdoTable,
     Prose, ProseKind, Section, Table, TableContent, TableId,

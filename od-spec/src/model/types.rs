@@ -198,24 +198,9 @@ impl DataType {
         Self::ALL.into_iter().find(|data_type| data_type.name() == name)
     }
 
-    /// The type that has this name in another notation: in capitals as in the standards, in C or Rust, in PLC languages.
-    pub fn called_elsewhere(name: &str) -> Option<Self> {
-        let name = name.to_ascii_lowercase().replace(['_', ' '], "-");
-        Some(match name.strip_suffix("-t").unwrap_or(&name) {
-            "bool" => Self::Boolean,
-            "int8" | "i8" | "s8" | "sint8" | "sint" => Self::Integer8,
-            "int16" | "i16" | "s16" | "sint16" => Self::Integer16,
-            "int32" | "i32" | "s32" | "sint32" | "dint" => Self::Integer32,
-            "int64" | "i64" | "s64" | "sint64" | "lint" => Self::Integer64,
-            "uint8" | "u8" | "usint" | "byte" => Self::Unsigned8,
-            "uint16" | "u16" | "word" => Self::Unsigned16,
-            "uint32" | "u32" | "udint" | "dword" => Self::Unsigned32,
-            "uint64" | "u64" | "ulint" | "lword" => Self::Unsigned64,
-            "float" | "float32" | "f32" | "real" => Self::Real32,
-            "double" | "float64" | "f64" | "lreal" => Self::Real64,
-            "string" => Self::VisibleString,
-            other => return Self::from_name(other),
-        })
+    /// The type of an index in the dictionary.
+    pub fn from_code(code: u16) -> Option<Self> {
+        Self::ALL.into_iter().find(|data_type| data_type.code() == code)
     }
 
     /// Width in bits on the bus; `None` for variable length. A BOOLEAN has 1 bit in a PDO.
@@ -545,12 +530,6 @@ mod tests {
         assert_eq!((names.len(), codes.len()), (25, 25));
         assert_eq!(DataType::from_name("integer24"), Some(DataType::Integer24));
         assert_eq!(DataType::TimeOfDay.to_string(), "TIME_OF_DAY");
-        let called = DataType::called_elsewhere;
-        assert_eq!([called("int16"), called("INTEGER16")], [Some(DataType::Integer16); 2]);
-        assert_eq!(
-            [called("uint8_t"), called("VISIBLE_STRING")],
-            [Some(DataType::Unsigned8), Some(DataType::VisibleString)]
-        );
-        assert_eq!([called("int"), called("uint9")], [None, None], "16 bits in a PLC, 32 in C");
+        assert_eq!([0x10, 0x0E].map(DataType::from_code), [Some(DataType::Integer24), None]);
     }
 }

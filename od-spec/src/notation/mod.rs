@@ -1,5 +1,6 @@
-//! What a scalar of the language holds: numbers, conditions, and names with placeholders.
+//! What a scalar of the language holds: numbers, conditions, and names with placeholders; and words for what has a number.
 
 pub mod expr;
 pub mod name_pattern;
 pub mod scalar;
+pub(crate) mod words;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use super::{MachineType, Master, Plant, PlantDevice, Site, classes, levels, machines};
 use crate::ast::plant::{DeviceDecl, PlantDecl};
-use crate::compile::{Compiled, compile};
+use crate::compile::{Compiled, compile, is_known};
 use crate::decode;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
-use crate::files::{self, Loader, add_source};
+use crate::files::{self, Loader, add_source, may_be_specification};
 use crate::keys;
 use crate::model::SystemSource;
 use crate::node_of_file::NodeOfFile;
@@ -159,10 +159,19 @@ fn file(
             return None;
         }
     };
+    let is_specification = may_be_specification(&bytes);
     let id = match add_source(sources, &name, bytes) {
-        Ok(id) => id,
-        Err(diagnostic) => {
+        Ok(id) if is_specification || is_known(sources.file(id)) => id,
+        Err(diagnostic) if is_specification || diagnostic.code == codes::TOO_LARGE => {
             diagnostics.push(diagnostic.at(device.from.span));
+            return None;
+        }
+        Ok(_) | Err(_) => {
+            let message = format!("`{}` does not describe a device", shorten(path));
+            diagnostics.push(
+                Diagnostic::new(codes::UNREADABLE, device.from.span, message)
+                    .help("name a specification, EDS or DCF relative to this file"),
+            );
             return None;
         }
     };

@@ -192,7 +192,7 @@ pub(super) fn entry_type(
     if !scope.is_broken(&name.value) {
         let named = scope.types.keys().map(String::as_str);
         let known = named.chain(DataType::ALL.iter().map(|data_type| data_type.name()));
-        let elsewhere = DataType::called_elsewhere(&name.value);
+        let elsewhere = crate::notation::words::data_type(&name.value);
         let known = known.filter(|_| elsewhere.is_none());
         let otherwise = |diagnostic: Diagnostic| match elsewhere {
             Some(data_type) => diagnostic.write(data_type.name()),

@@ -7,11 +7,12 @@
 use std::sync::LazyLock;
 
 use crate::ast::Spec;
+use crate::check::standard::continued;
 use crate::check::{Rule, Rules, Standard};
 use crate::decode::decode;
 use crate::diag::Diagnostics;
 use crate::library::shipped::{LIBRARIES, kept};
-use crate::model::{Dictionary, Index, Object};
+use crate::model::{DataType, Dictionary, Index, Object, SubIndex};
 use crate::resolve;
 use crate::source::SourceMap;
 use crate::wording::FileFormat;
@@ -63,6 +64,17 @@ fn object(index: Index) -> Option<&'static Object> {
     IN_RUNS.as_ref()?.objects.get(&Index(first))
 }
 
+/// The data type that CiA 301 gives an entry of an object with sub-indices, or without a sub-index an object that is one value.
+pub(crate) fn data_type(index: Index, sub: Option<SubIndex>) -> Option<DataType> {
+    let defined = || object(index).filter(|object| object.is_structured() == sub.is_some());
+    match sub {
+        // Of every object, also of a maker's.
+        Some(SubIndex(0)) => Some(DataType::Unsigned8),
+        Some(sub) => continued(defined()?, sub).map(|entry| entry.data_type),
+        None => defined()?.entries.first().map(|entry| entry.data_type),
+    }
+}
+
 /// Whether the library `cia301` has the object at an index.
 fn is_in_library(index: Index) -> bool {
     IN_LIBRARY.as_ref().is_some_and(|library| library.objects.contains_key(&index))
@@ -81,8 +93,6 @@ pub(crate) const fn rules<'a>(list: &'a [&'a Rule]) -> Rules<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::standard::continued;
-    use crate::model::SubIndex;
 
     #[test]
     fn the_standards_are_read_without_a_remark() {
@@ -121,5 +131,17 @@ mod tests {
         assert_eq!(name(0x1018, 4), Some("Serial number"));
         assert_eq!((name(0x1018, 5), name(0x1016, 0xFF)), (None, None));
         assert_eq!(name(0x1017, 1), None);
+    }
+
+    #[test]
+    fn types_are_those_of_the_standard() {
+        let of = |index: u16, sub: Option<u8>| data_type(Index(index), sub.map(SubIndex));
+        assert_eq!(of(0x1017, None), Some(DataType::Unsigned16));
+        assert_eq!(of(0x1003, Some(254)), Some(DataType::Unsigned32));
+        assert_eq!(of(0x1A05, Some(64)), Some(DataType::Unsigned32));
+        assert_eq!(of(0x1801, Some(3)), Some(DataType::Unsigned16));
+        assert_eq!([of(0x1003, Some(0)), of(0x2000, Some(0))], [Some(DataType::Unsigned8); 2]);
+        // Another shape than the standard's, and what it does not know.
+        assert_eq!([of(0x1017, Some(1)), of(0x1003, None), of(0x2000, None), of(0x1018, Some(5))], [None; 4]);
     }
 }

@@ -4,6 +4,7 @@ use super::parameters::Parameter;
 use super::tree::Tree;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::model::{Access, EntryId};
+use crate::notation::words;
 use crate::source::{Span, Spanned};
 
 /// Access and mapping of an entry, as an EDS has them.
@@ -45,11 +46,13 @@ pub(super) fn of<'x>(
             contradiction(found, id, mapping, diagnostics)
         }
         _ => {
+            let is_mappable = words::yes_no(mapping.value).unwrap_or(false);
+            let taken = if is_mappable { "optional" } else { "no" };
             let message =
-                format!("{id}: found `PDOmapping=\"{}\"`; it is taken as `no`", shorten(mapping.value));
+                format!("{id}: found `PDOmapping=\"{}\"`; it is taken as `{taken}`", shorten(mapping.value));
             let help = "write `no`, `default`, `optional`, `TPDO` or `RPDO`";
             diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, mapping.span, message).help(help));
-            return Taken { access, is_mappable: Some(mapping.map(|_| false)) };
+            return Taken { access, is_mappable: Some(mapping.map(|_| is_mappable)) };
         }
     };
     Taken { access: access.map(|_| directed), is_mappable: Some(mapping.map(|_| true)) }
@@ -77,10 +80,8 @@ fn stated<'x>(
     diagnostics: &mut Diagnostics,
 ) -> Option<Spanned<Access>> {
     if let Some(text) = tree.attribute(node, "accessType") {
-        return Some(match Access::from_word(text.value) {
-            Some(access) => text.map(|_| access),
-            None => unknown(id, "accessType", text, diagnostics),
-        });
+        let known = Access::from_word(text.value);
+        return Some(text.map(|_| known.unwrap_or_else(|| other(id, "accessType", text, diagnostics))));
     }
     let parameter = parameter?;
     let Some(text) = parameter.attribute("access") else {
@@ -94,7 +95,7 @@ fn stated<'x>(
         "readWrite" => Access::Rw,
         "readWriteInput" => Access::Rwr,
         "readWriteOutput" => Access::Rww,
-        _ => return Some(unknown(id, "access", text, diagnostics)),
+        _ => other(id, "access", text, diagnostics),
     };
     Some(text.map(|_| access))
 }
@@ -103,13 +104,16 @@ fn place<'x>(tree: Tree<'x>, parameter: Parameter<'_, 'x>) -> Span {
     tree.place(parameter.node)
 }
 
-fn unknown(id: EntryId, name: &str, text: Spanned<&str>, diagnostics: &mut Diagnostics) -> Spanned<Access> {
-    let message = format!("{id}: found `{name}=\"{}\"`; it is taken as read-only", shorten(text.value));
+/// An access in words that the attribute does not have; read-only where they are not known.
+fn other(id: EntryId, name: &str, text: Spanned<&str>, diagnostics: &mut Diagnostics) -> Access {
+    let known = words::access(text.value);
+    let taken = known.map_or_else(|| "read-only".to_owned(), |access| format!("`{}`", access.word()));
+    let message = format!("{id}: found `{name}=\"{}\"`; it is taken as {taken}", shorten(text.value));
     let help = match name {
         "access" if text.value == "noAccess" => "correct it if the entry can be read or written over the bus",
         "access" => "write `const`, `read`, `write`, `readWrite`, `readWriteInput` or `readWriteOutput`",
         _ => "write `const`, `ro`, `wo` or `rw`",
     };
     diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, text.span, message).help(help));
-    text.map(|_| Access::Ro)
+    known.unwrap_or(Access::Ro)
 }

@@ -4,16 +4,24 @@ use roxmltree::Node;
 
 use super::parameters::Parameters;
 use super::tree::{Tree, child, children, is_named};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::eds::Document;
+use crate::eds::number::lenient_integer;
+use crate::notation::words;
 use crate::source::{Span, Spanned};
 
 /// Writes what is said about the file, the device and its node.
-pub(super) fn write<'x>(document: &mut Document<'static>, tree: Tree<'x>, parameters: &Parameters<'x>) {
+pub(super) fn write<'x>(
+    document: &mut Document<'static>,
+    tree: Tree<'x>,
+    parameters: &Parameters<'x>,
+    diagnostics: &mut Diagnostics,
+) {
     file_info(document, tree);
     device_info(document, tree, parameters);
     dummies(document, tree);
     channels(document, tree);
-    commissioning(document, tree);
+    commissioning(document, tree, diagnostics);
 }
 
 /// Adds keys to a section.
@@ -109,9 +117,10 @@ fn flag(text: Spanned<&str>) -> Spanned<&'static str> {
     text.map(|text| if matches!(text, "true" | "1") { "1" } else { "0" })
 }
 
-/// `250` of `250 Kbps`.
+/// `250` of `250 Kbps`, also of a bit rate that CiA 301 does not have.
 fn kbit(text: &str) -> Option<u16> {
-    text.split_whitespace().next()?.parse().ok()
+    let other = || text.split_whitespace().next()?.parse().ok().filter(|rate| *rate != 0);
+    words::bit_rate(text).or_else(other)
 }
 
 fn dummies(document: &mut Document<'static>, tree: Tree<'_>) {
@@ -155,7 +164,7 @@ fn channels(document: &mut Document<'static>, tree: Tree<'_>) {
     keys.add("NrOfSeg", Some(Spanned::new(number.to_string(), place)));
 }
 
-fn commissioning(document: &mut Document<'static>, tree: Tree<'_>) {
+fn commissioning(document: &mut Document<'static>, tree: Tree<'_>, diagnostics: &mut Diagnostics) {
     let Some(node) = tree.first("deviceCommissioning") else { return };
     document.push_header("DeviceComissioning", tree.place(node), &[]);
     let text = |name: &str| tree.attribute(node, name);
@@ -164,7 +173,27 @@ fn commissioning(document: &mut Document<'static>, tree: Tree<'_>) {
     keys.add("NodeName", text("nodeName"));
     let rate = text("actualBaudRate");
     keys.add("Baudrate", rate.and_then(|rate| Some(Spanned::new(kbit(rate.value)?.to_string(), rate.span))));
+    if let Some(rate) = rate.filter(|rate| words::bit_rate(rate.value).is_none()) {
+        let found = format!("found `actualBaudRate=\"{}\"`", shorten(rate.value));
+        let message = format!("{found}, expected a bit rate such as `250 Kbps`");
+        let help = "write 10, 20, 50, 125, 250, 500, 800 or 1000, with ` Kbps`";
+        diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, rate.span, message).help(help));
+    }
     keys.add("NetNumber", text("networkNumber"));
     keys.add("NetworkName", text("networkName"));
     keys.add("CANopenManager", text("CANopenManager").map(flag));
+    let is_number = |text: &str, fits: fn(&i128) -> bool| lenient_integer(text).as_ref().is_some_and(fits);
+    let is_node_id = |text: &str| is_number(text, |id| matches!(id, 1..=127 | 255));
+    let is_network = |text: &str| is_number(text, |number| u32::try_from(*number).is_ok());
+    let is_rate = |text: &str| kbit(text).is_some();
+    let expected: [(_, &dyn Fn(&str) -> bool, _, _); 3] = [
+        ("NodeID", &is_node_id, "a node-ID", "node-IDs are 1 to 127"),
+        ("actualBaudRate", &is_rate, "a bit rate", "write it in kbit/s, such as `250 Kbps`"),
+        ("networkNumber", &is_network, "a number", "write the number of the network"),
+    ];
+    for (name, is_right, expected, help) in expected {
+        let Some(text) = text(name).filter(|text| !is_right(text.value)) else { continue };
+        let message = format!("found `{name}=\"{}\"`, expected {expected}", shorten(text.value));
+        diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, text.span, message).help(help));
+    }
 }

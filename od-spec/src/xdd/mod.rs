@@ -29,6 +29,10 @@ use crate::diag::Diagnostics;
 #[cfg(feature = "xdd")]
 use crate::eds::Document;
 #[cfg(feature = "xdd")]
+use crate::eds::read::StandardTypes;
+#[cfg(feature = "xdd")]
+use crate::limits::Room;
+#[cfg(feature = "xdd")]
 use crate::source::FileId;
 
 /// Whether a text is an XDD or XDC: by the name of its file or, where that says nothing, by its first character.
@@ -57,7 +61,12 @@ pub(crate) struct Translated {
 
 /// Translates an XDD or XDC; `None`, with a message, for a text that is none.
 #[cfg(feature = "xdd")]
-pub(crate) fn translate(file: FileId, text: &str, diagnostics: &mut Diagnostics) -> Option<Translated> {
+pub(crate) fn translate(
+    file: FileId,
+    text: &str,
+    standard: StandardTypes,
+    diagnostics: &mut Diagnostics,
+) -> Option<Translated> {
     let xml = tree::parse(file, text, diagnostics)?;
     let xml = tree::Tree { xml: &xml, file };
     let Some(list) = xml.first("CANopenObjectList") else {
@@ -66,9 +75,18 @@ pub(crate) fn translate(file: FileId, text: &str, diagnostics: &mut Diagnostics)
     };
     let mut document = Document::translated(file);
     let parameters = parameters::Parameters::of(xml);
-    device::write(&mut document, xml, &parameters);
+    device::write(&mut document, xml, &parameters, diagnostics);
     let mut texts = Texts::of(xml);
-    objects::write(&mut document, xml, list, &parameters, &mut texts, diagnostics);
+    let context = objects::Context {
+        document: &mut document,
+        tree: xml,
+        parameters: &parameters,
+        texts: &mut texts,
+        standard,
+        diagnostics,
+        room: Room::new(0),
+    };
+    objects::write(list, context);
     tree::say_what_is_left_out(xml, diagnostics);
     Some(Translated { document, texts })
 }

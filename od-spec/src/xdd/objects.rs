@@ -13,28 +13,27 @@ use super::types;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::eds::Document;
 use crate::eds::number::lenient_integer;
+use crate::eds::read::{Form, StandardTypes};
+use crate::limits::Room;
 use crate::model::{DataType, EntryId, Index, ObjectKind, SubIndex};
+use crate::notation::words;
 use crate::source::{Span, Spanned};
 
 /// What is read together.
-struct Context<'a, 'x> {
-    document: &'a mut Document<'static>,
-    tree: Tree<'x>,
-    parameters: &'a Parameters<'x>,
-    texts: &'a mut Texts,
-    diagnostics: &'a mut Diagnostics,
+pub(super) struct Context<'a, 'x> {
+    pub document: &'a mut Document<'static>,
+    pub tree: Tree<'x>,
+    pub parameters: &'a Parameters<'x>,
+    pub texts: &'a mut Texts,
+    /// What CiA 301 says.
+    pub standard: StandardTypes,
+    pub diagnostics: &'a mut Diagnostics,
+    /// What is left for the texts of parameters, which any number of objects may share.
+    pub room: Room,
 }
 
 /// Writes the sections of all objects.
-pub(super) fn write<'x>(
-    document: &mut Document<'static>,
-    tree: Tree<'x>,
-    list: Node<'x, 'x>,
-    parameters: &Parameters<'x>,
-    texts: &mut Texts,
-    diagnostics: &mut Diagnostics,
-) {
-    let mut context = Context { document, tree, parameters, texts, diagnostics };
+pub(super) fn write<'x>(list: Node<'x, 'x>, mut context: Context<'_, 'x>) {
     let mut seen = BTreeSet::new();
     for node in children(list, "CANopenObject") {
         let Some((number, place)) = context.number(node, "index", 0xFFFF) else { continue };
@@ -101,8 +100,8 @@ impl<'a, 'x> Context<'a, 'x> {
         self.name(node, &id.to_string(), parameter);
         self.object_type(node, kind);
         match kind {
-            Some(ObjectKind::Var) => self.facts(node, id, false, parameter),
-            Some(ObjectKind::Domain) => self.facts(node, id, true, parameter),
+            Some(ObjectKind::Var) => self.facts(node, id, Form::Value, parameter),
+            Some(ObjectKind::Domain) => self.facts(node, id, Form::Domain, parameter),
             Some(ObjectKind::Array | ObjectKind::Record) | None => {}
         }
         self.text("Denotation", self.tree.attribute(node, "denotation"));
@@ -123,7 +122,8 @@ impl<'a, 'x> Context<'a, 'x> {
             Some(ObjectKind::Var | ObjectKind::Array | ObjectKind::Record) | None => ObjectKind::Var,
         };
         self.object_type(node, Some(kind));
-        self.facts(node, id, kind == ObjectKind::Domain, parameter);
+        let form = if kind == ObjectKind::Domain { Form::Domain } else { Form::of_sub(id) };
+        self.facts(node, id, form, parameter);
         self.text("Denotation", self.tree.attribute(node, "denotation"));
     }
 
@@ -161,7 +161,8 @@ impl<'a, 'x> Context<'a, 'x> {
         let usual = if has_subs { ObjectKind::Record } else { ObjectKind::Var };
         let text = self.tree.attribute(node, "objectType");
         let number = text.and_then(|text| text.value.parse::<u8>().ok());
-        let stated = match number {
+        let word = text.and_then(|text| words::object_code(text.value)).filter(|_| number.is_none());
+        let stated = match number.or(word) {
             Some(2) => Some(ObjectKind::Domain),
             Some(7) => Some(ObjectKind::Var),
             Some(8) => Some(ObjectKind::Array),
@@ -169,21 +170,20 @@ impl<'a, 'x> Context<'a, 'x> {
             Some(0 | 5 | 6) if !has_subs => return None,
             Some(_) | None => None,
         };
-        match stated {
-            Some(kind @ (ObjectKind::Array | ObjectKind::Record)) => Some(kind),
-            Some(kind @ (ObjectKind::Var | ObjectKind::Domain)) if !has_subs => Some(kind),
-            Some(_) | None => {
-                let found = match text {
-                    Some(text) => format!("found `objectType=\"{}\"`", shorten(text.value)),
-                    None => "there is no `objectType`".to_owned(),
-                };
-                let message = format!("{id}: {found}; it is taken as {}", usual.name());
-                let help = "write 7 for VAR, 8 for ARRAY, 9 for RECORD, 2 for DOMAIN";
-                let place = text.map_or_else(|| self.tree.place(node), |text| text.span);
-                self.diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, place, message).help(help));
-                Some(usual)
-            }
+        let fits = |kind: &ObjectKind| !has_subs || matches!(kind, ObjectKind::Array | ObjectKind::Record);
+        let fitting = stated.filter(fits);
+        let taken = fitting.unwrap_or(usual);
+        if fitting.is_none() || word.is_some() {
+            let found = match text {
+                Some(text) => format!("found `objectType=\"{}\"`", shorten(text.value)),
+                None => "there is no `objectType`".to_owned(),
+            };
+            let message = format!("{id}: {found}; it is taken as {}", taken.name());
+            let help = "write 7 for VAR, 8 for ARRAY, 9 for RECORD, 2 for DOMAIN";
+            let place = text.map_or_else(|| self.tree.place(node), |text| text.span);
+            self.diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, place, message).help(help));
         }
+        Some(taken)
     }
 
     /// What comments say in an EDS.
@@ -192,6 +192,15 @@ impl<'a, 'x> Context<'a, 'x> {
         let described = self.texts.lines(self.tree, key_of(id, is_sub), parameter);
         let mut lines: Vec<String> = described.into_iter().map(str::to_owned).collect();
         lines.extend(meaning::lines(self.tree, parameter, id, self.diagnostics));
+        if let Err(full) = self.room.take(0, lines.iter().map(String::len).sum()) {
+            let message = full.words(0);
+            let help = "the texts of further parameters are left out; is this the right file?";
+            let place = self.tree.place(self.tree.xml.root_element());
+            if self.diagnostics.is_new(codes::TOO_MUCH, place) {
+                self.diagnostics.push(Diagnostic::new(codes::TOO_MUCH, place, message).help(help));
+            }
+            return Vec::new();
+        }
         lines
     }
 
@@ -226,14 +235,8 @@ impl<'a, 'x> Context<'a, 'x> {
     }
 
     /// The facts of an entry.
-    fn facts(
-        &mut self,
-        node: Node<'x, 'x>,
-        id: EntryId,
-        is_domain: bool,
-        parameter: Option<Parameter<'a, 'x>>,
-    ) {
-        let data_type = self.data_type(node, id, is_domain, parameter);
+    fn facts(&mut self, node: Node<'x, 'x>, id: EntryId, form: Form, parameter: Option<Parameter<'a, 'x>>) {
+        let data_type = self.data_type(node, id, form, parameter);
         let code = format!("0x{:04X}", data_type.value.code());
         self.document.push_key("DataType", &code, data_type.span);
         let is_domain = data_type.value == DataType::Domain;
@@ -270,32 +273,48 @@ impl<'a, 'x> Context<'a, 'x> {
         }
     }
 
-    /// The data type: the object's own, or else its parameter's. What nobody says is a block of unknown length.
+    /// The data type: the object's own, or else its parameter's, or else that of CiA 301. What none of them says is a block of
+    /// unknown length.
     fn data_type(
         &mut self,
         node: Node<'x, 'x>,
         id: EntryId,
-        is_domain: bool,
+        form: Form,
         parameter: Option<Parameter<'a, 'x>>,
     ) -> Spanned<DataType> {
         let text = self.tree.attribute(node, "dataType");
-        let own = text.and_then(|text| Some(Spanned::new(types::of_index(text.value)?, text.span)));
         let place = text.map_or_else(|| self.tree.place(node), |text| text.span);
-        let of_parameter =
-            || parameter.and_then(Parameter::data_type).map(|known| Spanned::new(known, place));
-        if let Some(known) = own.or_else(of_parameter) {
-            return known;
+        if let Some(known) = text.and_then(|text| types::of_index(text.value)) {
+            return Spanned::new(known, place);
         }
-        if !is_domain || text.is_some() {
+        if let Some((text, named)) = text.and_then(|text| Some((text, types::of_word(text.value)?))) {
+            let message =
+                format!("{id}: found `dataType=\"{}\"`; it is taken as {named}", shorten(text.value));
+            let help = format!("write `{:04X}`", named.code());
+            self.diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, place, message).help(help));
+            return Spanned::new(named, place);
+        }
+        if let Some(known) = parameter.and_then(Parameter::data_type) {
+            return Spanned::new(known, place);
+        }
+        let standard = form.standard_type(id, self.standard);
+        let taken = standard.unwrap_or(DataType::Domain);
+        if form != Form::Domain || text.is_some() {
             let message = match text {
                 Some(text) => {
-                    format!("{id}: there is no data type `{}`; it is taken as DOMAIN", shorten(text.value))
+                    format!("{id}: there is no data type `{}`; it is taken as {taken}", shorten(text.value))
                 }
-                None => format!("{id} has no data type; it is taken as DOMAIN"),
+                None => format!("{id} has no data type; it is taken as {taken}"),
             };
-            let help = "add `dataType`, the index of a data type of CiA 301 such as `0007` for UNSIGNED32";
+            let help = match standard {
+                Some(known) => {
+                    format!("write `dataType=\"{:04X}\"`: CiA 301 gives it this type", known.code())
+                }
+                None => "add `dataType`, the index of a data type of CiA 301 such as `0007` for UNSIGNED32"
+                    .to_owned(),
+            };
             self.diagnostics.push(Diagnostic::new(codes::XDD_NO_TYPE, place, message).help(help));
         }
-        Spanned::new(DataType::Domain, place)
+        Spanned::new(taken, place)
     }
 }

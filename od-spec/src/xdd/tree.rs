@@ -10,6 +10,9 @@ use crate::source::{FileId, Span, Spanned};
 #[expect(clippy::cast_possible_truncation, reason = "a few millions")]
 const MOST_NODES: u32 = 64 * ENTRIES_OF_FILE as u32;
 
+/// Attributes of an element. The formats know two dozen; the parser compares each with all before it.
+const MOST_ATTRIBUTES: usize = 256;
+
 /// A document and the file that it is from.
 #[derive(Clone, Copy)]
 pub(super) struct Tree<'x> {
@@ -19,12 +22,46 @@ pub(super) struct Tree<'x> {
 
 /// Reads the text; `None`, with a message, where it is not XML.
 pub(super) fn parse<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostics) -> Option<Document<'t>> {
+    if let Some(start) = overladen(text.as_bytes()) {
+        let message = format!("an element has more than {MOST_ATTRIBUTES} attributes");
+        let span = Span { file, start: offset(start), end: offset(start + 1) };
+        diagnostics.push(Diagnostic::new(codes::TOO_MUCH, span, message).help("is this the right file?"));
+        return None;
+    }
     let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     match Document::parse_with_options(text, options) {
         Ok(xml) => Some(xml),
         Err(error) => {
             diagnostics.push(refused(file, text, &error));
             None
+        }
+    }
+}
+
+/// Where an element begins that has more attributes than any. What is no XML is left to the parser.
+fn overladen(text: &[u8]) -> Option<usize> {
+    const SKIPPED: [(&[u8], &[u8]); 3] = [(b"<!--", b"-->"), (b"<![CDATA[", b"]]>"), (b"<?", b"?>")];
+    let behind = |start: usize, what: &[u8]| {
+        memchr::memmem::find(text.get(start..)?, what).map(|found| start + found + what.len())
+    };
+    let mut at = 0;
+    loop {
+        let start = behind(at, b"<")? - 1;
+        if let Some((open, close)) = SKIPPED.into_iter().find(|(open, _)| text[start..].starts_with(open)) {
+            at = behind(start + open.len(), close)?;
+            continue;
+        }
+        at = start + 1;
+        // Every attribute has one value in quotes.
+        for values in 0.. {
+            at += memchr::memchr3(b'>', b'"', b'\'', text.get(at..)?)?;
+            if text[at] == b'>' {
+                break;
+            }
+            if values == MOST_ATTRIBUTES {
+                return Some(start);
+            }
+            at = behind(at + 1, &text[at..=at])?;
         }
     }
 }

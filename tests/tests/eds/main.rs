@@ -3,4 +3,5 @@
 mod foreign;
 mod format_rules;
 mod front_end;
+mod told_once;
 mod xdd;

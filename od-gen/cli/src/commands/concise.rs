@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueEnum};
 use od_formats::concise::{self, Listing};
-use od_gen::source::read_file;
+use od_gen::source::read_bytes;
 use od_spec::diag::{Diagnostic, codes};
 
 use crate::exit::ERRORS;
@@ -65,7 +65,7 @@ fn show(args: &ConciseShowArgs, directory: &Path, report: &Report) -> Result<u8,
     let node =
         args.node.as_deref().map(node_id).transpose().map_err(|diagnostic| report.refuse(diagnostic))?;
     let file = shown(&args.file);
-    let bytes = read_file(&args.file).map_err(|reason| {
+    let bytes = read_bytes(&args.file).map_err(|reason| {
         let message = format!("cannot read {file}: {reason}");
         report.refuse(Diagnostic::without_place(codes::UNREADABLE, message).help("check the path"))
     })?;

@@ -2,12 +2,12 @@
 
 mod git;
 
-use std::fs::read_to_string;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use od_diff::{Difference, Question, Scope, Unpaired, compare, human, json, markdown, short};
+use od_gen::source::read_file;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::{Commissioning, NodeOfFile, assign_layers, is_parameter_file};
 
@@ -224,7 +224,7 @@ impl Source {
             Self::Eds
         } else if ends_with("dcf") || ends_with("xdc") {
             Self::Dcf
-        } else if read_to_string(path).is_ok_and(|text| is_parameter_file(&text)) {
+        } else if read_file(path).is_ok_and(|text| is_parameter_file(&String::from_utf8_lossy(&text))) {
             Self::Parameters
         } else {
             Self::Specification

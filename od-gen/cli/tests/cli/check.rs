@@ -104,7 +104,7 @@ fn the_summary_counts_what_can_be_repaired() {
         said.split_once("(`odgen fix` repairs ").map(|(_, rest)| rest.split(')').next().unwrap().to_owned())
     };
     let word = "DefaultValue=false";
-    let one = FAN.replace("readonly", "ro");
+    let one = FAN.replace("internal", "ro");
     let more = |count: usize| {
         let section = |n: usize| {
             format!(
@@ -125,7 +125,7 @@ fn the_summary_counts_what_can_be_repaired() {
 #[test]
 fn strict_holds_an_eds_to_the_standard() {
     let scratch = Scratch::new("strict");
-    scratch.file("fan.eds", FAN.replace("readonly", "ro").replace("=false", "=0"));
+    scratch.file("fan.eds", FAN.replace("internal", "ro").replace("=false", "=0"));
     scratch.file("lamp.od.yaml", LAMP);
     let severity = |arguments: &[&str]| {
         let output =

@@ -15,7 +15,7 @@ fn check(scratch: &Scratch, arguments: &[&str]) -> (i32, Vec<String>) {
 #[test]
 fn findings_are_denied_and_allowed_by_code_and_group() {
     let scratch = Scratch::new("policy");
-    scratch.file("fan.eds", FAN.replace("readonly", "ro"));
+    scratch.file("fan.eds", FAN.replace("internal", "ro"));
     let check = |arguments: &[&str]| check(&scratch, &[&["fan.eds"], arguments].concat());
     let found = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>();
     assert_eq!(check(&[]), (0, found(&["warning[EDS506"])));

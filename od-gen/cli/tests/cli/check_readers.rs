@@ -81,6 +81,6 @@ fn a_code_tells_who_stumbles_over_it() {
 #[test]
 fn a_file_that_is_wrong_may_be_read_all_the_same() {
     let scratch = Scratch::new("for-fan");
-    scratch.file("level.eds", FAN.replace("readonly", "ro"));
+    scratch.file("level.eds", FAN.replace("internal", "ro"));
     assert_eq!(check(&scratch, &["--for", "python-canopen"]).0, 0);
 }

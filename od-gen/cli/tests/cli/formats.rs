@@ -86,7 +86,7 @@ fn github_gets_a_command_for_each_finding() {
     assert!(lines[0].starts_with("::notice file=50%25%2Cfan.eds,line=137,col=10,title=EDS503%3A "), "{said}");
     assert!(lines[1].starts_with("::error file=50%25%2Cfan.eds,line=147,col=12,title=EDS406%3A "), "{said}");
     assert!(
-        lines[1].contains("::2001h: there is no access type `readonly`; it is taken as ro%0Ahelp: "),
+        lines[1].contains("::2001h: there is no access type `internal`; it is taken as ro%0Ahelp: "),
         "{said}"
     );
     assert!(

@@ -24,6 +24,7 @@ mod import;
 mod in_one_file;
 mod machine;
 mod monitor;
+mod named_files;
 mod new;
 mod node;
 mod node_of_file;

@@ -1,12 +1,9 @@
 //! `[DeviceInfo]`, `[DummyUsage]` (CiA 306 4.5 and 4.6.2) and `[DynamicChannels]`: what the device is and what it supports.
 
 use od_spec::eds::Document;
-use od_spec::model::{DataType, Dictionary, Direction, System};
+use od_spec::model::{BIT_RATES, DataType, Dictionary, Direction, System};
 
 use super::writer::SectionWriter;
-
-/// Bit rates that an EDS has keys for, in kbit/s.
-const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
 /// `[DeviceInfo]`: whose device it is and what it can do.
 pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dictionary) {

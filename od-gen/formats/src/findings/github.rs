@@ -4,9 +4,11 @@ use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::source::SourceMap;
 use od_spec::visible::visible;
 
+use super::written;
+
 /// One workflow command for each message, in a line of its own; it shows the message beside the source line.
 pub fn github(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
-    diagnostics.iter().map(|diagnostic| command(diagnostic, sources) + "\n").collect()
+    written(diagnostics).map(|diagnostic| command(&diagnostic, sources) + "\n").collect()
 }
 
 /// A message as one command, in one line.

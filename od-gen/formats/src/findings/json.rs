@@ -6,6 +6,8 @@ use od_spec::source::{SourceMap, Span};
 use od_spec::visible::visible_json;
 use serde::Serialize;
 
+use super::{edits, written};
+
 /// A message, in the order in which it is written.
 #[derive(Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -36,12 +38,12 @@ struct Marked<'a> {
 
 /// One object for each message, in a line of its own.
 pub fn json(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
-    diagnostics.iter().map(|diagnostic| printed(&finding(diagnostic, sources)) + "\n").collect()
+    written(diagnostics).map(|diagnostic| printed(&finding(&diagnostic, sources)) + "\n").collect()
 }
 
 fn finding<'a>(diagnostic: &'a Diagnostic, sources: &'a SourceMap) -> Finding<'a> {
     let labels = diagnostic.labels.iter().map(|label| marked(label.span, &label.text, sources));
-    let edits = diagnostic.edits.iter().map(|edit| marked(edit.span, &edit.text, sources));
+    let edits = edits(diagnostic).iter().map(|edit| marked(edit.span, &edit.text, sources));
     Finding {
         code: diagnostic.code.id,
         severity: diagnostic.severity().word(),

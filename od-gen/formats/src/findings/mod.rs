@@ -8,6 +8,32 @@ pub use github::github;
 pub use json::json;
 pub use sarif::{Findings, sarif};
 
+use std::borrow::Cow;
+
+use od_spec::diag::{Diagnostic, Diagnostics, Edit, Severity};
+
+/// Messages of one code, in one file, that are written. The last of them then says how many more there are.
+pub const MOST_MESSAGES: usize = 10_000;
+/// Changes of one message that are written. Those of a message that has more are left out: a part of them repairs nothing.
+pub const MOST_EDITS: usize = 10_000;
+
+/// The messages to be written.
+fn written(diagnostics: &Diagnostics) -> impl Iterator<Item = Cow<'_, Diagnostic>> {
+    let (shown, more) = diagnostics.first_of_each_code(MOST_MESSAGES);
+    let more = more.into_iter().map(|(code, count)| {
+        let message = format!("{count} more messages of this code are left out");
+        let mut last = Diagnostic::without_place(code, message);
+        last.severity = Severity::Note;
+        Cow::Owned(last)
+    });
+    shown.into_iter().map(Cow::Borrowed).chain(more)
+}
+
+/// The changes of a message to be written.
+fn edits(diagnostic: &Diagnostic) -> &[Edit] {
+    if diagnostic.edits.len() > MOST_EDITS { &[] } else { &diagnostic.edits }
+}
+
 #[cfg(test)]
 mod tests {
     use od_spec::diag::{Diagnostic, Diagnostics, codes};

@@ -6,6 +6,7 @@ use od_spec::diag::{Code, Diagnostic, Diagnostics, Label, Severity};
 use od_spec::source::{FileId, SourceMap, Span};
 
 use super::json::printed;
+use super::{edits, written};
 
 /// What was found in one file, and in the libraries that it uses.
 #[derive(Debug, Clone, Copy)]
@@ -26,8 +27,8 @@ pub fn sarif(version: &str, explanation: fn(&Code) -> String, files: &[Findings<
     let rules = codes.iter().map(|code| rule(code, &explanation(code))).collect::<Vec<_>>();
     let positions: BTreeMap<&str, usize> = codes.iter().map(|code| code.id).zip(0..).collect();
     let results = files.iter().flat_map(|file| {
-        file.diagnostics.iter().map(|diagnostic| {
-            result(diagnostic, positions.get(diagnostic.code.id).copied().unwrap_or_default(), file)
+        written(file.diagnostics).map(|diagnostic| {
+            result(&diagnostic, positions.get(diagnostic.code.id).copied().unwrap_or_default(), file)
         })
     });
     let driver = object(&[
@@ -109,7 +110,7 @@ fn result(diagnostic: &Diagnostic, rule: usize, file: &Findings<'_>) -> String {
     if !readers.is_empty() {
         members.push(("properties", object(&[("mindedBy", list(readers))])));
     }
-    if !diagnostic.edits.is_empty() {
+    if !edits(diagnostic).is_empty() {
         members.push(("fixes", list([fix(diagnostic, file.sources)])));
     }
     object(&members)
@@ -150,7 +151,7 @@ fn region(span: Span, sources: &SourceMap) -> String {
 /// All edits of a message, by file.
 fn fix(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     let mut files: BTreeMap<FileId, Vec<String>> = BTreeMap::new();
-    for edit in &diagnostic.edits {
+    for edit in edits(diagnostic) {
         let inserted = object(&[("text", printed(&edit.text))]);
         let replacement =
             object(&[("deletedRegion", region(edit.span, sources)), ("insertedContent", inserted)]);

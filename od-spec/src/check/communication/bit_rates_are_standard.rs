@@ -4,12 +4,9 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::Fact;
+use crate::model::{BIT_RATES, Fact};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
-
-/// Bit rates of CiA 301 in kbit/s.
-const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
 /// The code of the rule.
 pub const CODE: &Code = &Code {

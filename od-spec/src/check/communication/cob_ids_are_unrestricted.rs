@@ -95,13 +95,13 @@ fn services<'a>(subject: &Subject<'a>) -> impl Iterator<Item = (Parameter<'a>, B
 fn problem(subject: &Subject<'_>, parameter: &Parameter<'_>, bit_31: Bit31, node: u8) -> Option<String> {
     let raw = parameter.value.integer_for(node)?;
     let id = raw & !(NOT_VALID | NO_REMOTE_FRAMES);
-    // A message that does not exist needs no identifier.
-    if bit_31 == Bit31::NotValid && raw & NOT_VALID != 0 && id == 0 {
-        return None;
-    }
     let on_node = || subject.on_node(parameter.value, node);
     if id > 0x7FF {
         return Some(format!("{id:X}h{} is no 11-bit identifier", on_node()));
+    }
+    // A message that does not exist disturbs no service, whatever its identifier.
+    if bit_31 == Bit31::NotValid && raw & NOT_VALID != 0 {
+        return None;
     }
     // A client talks to the first channel of another node on the identifiers that are kept for that.
     let is_client = matches!(parameter.id.index.0, 0x1280..=0x12FF);

@@ -28,15 +28,26 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    let (info, keys) = (&subject.device.info, subject.format);
+    let (info, keys, vendor) = (&subject.device.info, subject.format, &subject.system.vendor);
+    let says = |fact| subject.device.facts.get(fact).is_some();
     // An EDS tells the device type in 1000h alone.
     let identity = [
-        (entry_id(0x1000, 0), info.device_type, "the device type".to_owned()),
-        (entry_id(0x1018, 1), subject.system.vendor.number, keys.key(Key::Vendor)),
-        (entry_id(0x1018, 2), info.product, keys.key(Key::Product)),
-        (entry_id(0x1018, 3), info.product_revision, "`RevisionNumber`".to_owned()),
+        (entry_id(0x1000, 0), says(Fact::DeviceType), info.device_type, "the device type".to_owned()),
+        (entry_id(0x1018, 1), vendor.number_span.is_some(), vendor.number, keys.key(Key::Vendor)),
+        (entry_id(0x1018, 2), says(Fact::Product), info.product, keys.key(Key::Product)),
+        (
+            entry_id(0x1018, 3),
+            says(Fact::ProductRevision),
+            info.product_revision,
+            "`RevisionNumber`".to_owned(),
+        ),
     ];
-    for (id, number, key) in identity {
+    for (id, is_said, number, key) in identity {
+        // What a file does not say disagrees with nothing; that it is missing is said by itself. For a specification, 0 is
+        // what its EDS says.
+        if !is_said && subject.system.source == SystemSource::Eds {
+            continue;
+        }
         let Some(entry) = subject.device.entry(id) else { continue };
         let Some(stated) = entry.default.as_ref() else { continue };
         let number = Value::Integer(i128::from(number));

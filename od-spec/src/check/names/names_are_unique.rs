@@ -9,7 +9,7 @@ use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
-use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
+use crate::diag::{Code, Diagnostic, Example, Repeated, Severity, shorten};
 use crate::model::{DataType, Entry, EntryId, Fact, Object};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
@@ -71,32 +71,48 @@ fn same_name(subject: &Subject<'_>, before: &Object, object: &Object) -> Diagnos
         .help("give one of the two another name; people and generated code refer to objects by name")
 }
 
-/// Two entries of one object.
+/// Entries of one object that have one name: a finding for each name, however many have it.
 fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings) {
     let mut by_name: BTreeMap<Cow<'_, str>, &Entry> = BTreeMap::new();
+    let mut shared: BTreeMap<Cow<'_, str>, Repeated> = BTreeMap::new();
     for entry in &object.entries {
         let Some(before) = by_name.insert(in_ascii(&entry.name), entry) else { continue };
-        let (index, first, second) = (object.index, before.sub, entry.sub);
-        let (place, before_place) = (subject.place(entry, Fact::Name), subject.place(before, Fact::Name));
-        let message = if entry.name == before.name {
-            format!("{index}.{first} and {index}.{second} are both named `{}`", shorten(&entry.name))
-        } else {
-            format!("{index}.{first} and {index}.{second} have one name in ASCII")
-        };
-        let diagnostic = subject.finding(CODE, EntryId { index, sub: second }, entry, Fact::Name, message);
-        findings.push(if place == before_place {
-            let help = subject.help(Help {
-                specification: "write `{n}` into the name; it stands for the sub-index",
-                eds: "give each entry of an object a name of its own",
-                setting: "give each entry of an object a name of its own",
-            });
-            diagnostic.label(format!("sub-index {first} and sub-index {second}")).help(help)
-        } else {
-            diagnostic
-                .label(format!("sub-index {second}"))
-                .with(before_place, format!("sub-index {first}"))
-                .help("give each entry of an object a name of its own")
+        let place = subject.place(entry, Fact::Name);
+        let found = shared.entry(in_ascii(&entry.name)).or_insert_with(Repeated::new);
+        // A name that is written once for many elements is wrong once.
+        if found.is_empty() || place != subject.place(before, Fact::Name) {
+            found.add(place, [], || same_entry_name(subject, object, before, entry));
+        }
+    }
+    for found in shared.into_values() {
+        if let Some(finding) = found.into_diagnostic("entries") {
+            findings.push(finding);
+        }
+    }
+}
+
+/// Two entries of one name.
+fn same_entry_name(subject: &Subject<'_>, object: &Object, before: &Entry, entry: &Entry) -> Diagnostic {
+    let (index, first, second) = (object.index, before.sub, entry.sub);
+    let (place, before_place) = (subject.place(entry, Fact::Name), subject.place(before, Fact::Name));
+    let message = if entry.name == before.name {
+        format!("{index}.{first} and {index}.{second} are both named `{}`", shorten(&entry.name))
+    } else {
+        format!("{index}.{first} and {index}.{second} have one name in ASCII")
+    };
+    let diagnostic = subject.finding(CODE, EntryId { index, sub: second }, entry, Fact::Name, message);
+    if place == before_place {
+        let help = subject.help(Help {
+            specification: "write `{n}` into the name; it stands for the sub-index",
+            eds: "give each entry of an object a name of its own",
+            setting: "give each entry of an object a name of its own",
         });
+        diagnostic.label(format!("sub-index {first} and sub-index {second}")).help(help)
+    } else {
+        diagnostic
+            .label(format!("sub-index {second}"))
+            .with(before_place, format!("sub-index {first}"))
+            .help("give each entry of an object a name of its own")
     }
 }
 

@@ -3,10 +3,9 @@
 mod human;
 mod short;
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use super::{Code, Diagnostics};
+use super::Diagnostics;
 use crate::source::SourceMap;
 
 /// How diagnostics are written.
@@ -19,29 +18,35 @@ pub enum Format {
     Short,
 }
 
-/// Messages of one code that people are shown with their source lines; a number tells of the others.
-const MOST: usize = 100;
+impl Format {
+    /// Messages of one code that are written; a number stands for the others.
+    const fn most(self) -> usize {
+        match self {
+            Format::Human => 100,
+            Format::Short => 1_000,
+        }
+    }
+}
 
-/// All diagnostics in the given format, each ended by a line break; for people, after a hundred of one code, only how many more
-/// there are.
+/// The diagnostics in the given format, each ended by a line break; of a code that has very many, the first of them and how
+/// many more there are.
 pub fn render(diagnostics: &Diagnostics, sources: &SourceMap, format: Format, colour: bool) -> String {
     let mut out = String::new();
-    let mut shown: BTreeMap<&Code, usize> = BTreeMap::new();
-    for diagnostic in diagnostics {
-        let of_code = shown.entry(diagnostic.code).or_default();
-        *of_code += 1;
-        if format == Format::Human && *of_code > MOST {
-            continue;
-        }
-        let (text, end) = match format {
-            Format::Human => (human::human(diagnostic, sources, colour), "\n\n"),
-            Format::Short => (short::short(diagnostic, sources), "\n"),
+    let (shown, more) = diagnostics.first_of_each_code(format.most());
+    let end = match format {
+        Format::Human => "\n\n",
+        Format::Short => "\n",
+    };
+    for diagnostic in shown {
+        let text = match format {
+            Format::Human => human::human(diagnostic, sources, colour),
+            Format::Short => short::short(diagnostic, sources),
         };
         out.push_str(&text);
         out.push_str(end);
     }
-    for (code, count) in shown.into_iter().filter(|(_, count)| format == Format::Human && *count > MOST) {
-        let _ = write!(out, "and {} more like these ({code})\n\n", count - MOST);
+    for (code, count) in more {
+        let _ = write!(out, "and {count} more like these ({code}){end}");
     }
     out
 }
@@ -71,11 +76,11 @@ mod tests {
     use crate::diag::{Diagnostic, codes};
 
     #[test]
-    fn people_are_shown_a_hundred_of_a_kind() {
+    fn the_first_of_a_kind_are_shown_and_the_others_counted() {
         let mut sources = SourceMap::new();
-        let file = sources.add("a", "x".repeat(300));
+        let file = sources.add("a", "x".repeat(1_300));
         let mut diagnostics = Diagnostics::new();
-        for at in 0..150 {
+        for at in 0..1_150 {
             diagnostics.push(Diagnostic::new(
                 codes::UNKNOWN_KEY,
                 sources.whole(file).part(at, at + 1),
@@ -84,7 +89,9 @@ mod tests {
         }
         let text = render(&diagnostics, &sources, Format::Human, false);
         assert_eq!(text.matches("error[OD0201]").count(), 100);
-        assert!(text.ends_with("and 50 more like these (OD0201)\n\n"), "{text}");
-        assert_eq!(render(&diagnostics, &sources, Format::Short, false).lines().count(), 150);
+        assert!(text.ends_with("and 1050 more like these (OD0201)\n\n"), "{text}");
+        let text = render(&diagnostics, &sources, Format::Short, false);
+        assert_eq!(text.lines().count(), 1_001);
+        assert!(text.ends_with("\nand 150 more like these (OD0201)\n"), "{text}");
     }
 }

@@ -2,7 +2,6 @@
 //! keys and lines; what an object's keys mean is the reader's business, what the objects mean together that of the rules
 //! over the model.
 
-mod edits;
 mod enumeration;
 pub(in crate::eds) mod keys;
 mod numbered;
@@ -22,6 +21,7 @@ mod tests;
 use std::sync::LazyLock;
 
 use crate::diag::Diagnostics;
+use crate::eds::edits;
 use crate::eds::view::View;
 
 pub use commissioning::settings_belong_to_a_dcf::CODE as SETTINGS_IN_EDS;

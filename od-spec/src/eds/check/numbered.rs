@@ -102,6 +102,20 @@ impl<'v, 'd> NumberedList<'v, 'd> {
         numbers.len() == self.entries.len() && numbers.into_iter().eq((1..).take(self.entries.len()))
     }
 
+    /// The entries that only repeat the one before them, by where their keys begin.
+    pub(super) fn repeated(&self) -> BTreeSet<u32> {
+        let is_same = |one: &Entry<'_>, other: &Entry<'_>| {
+            let (one, other) = (one.value.value, other.value.value);
+            one == other || lenient_integer(one).is_some_and(|number| lenient_integer(other) == Some(number))
+        };
+        let of_one_number = self.entries.chunk_by(|(one, _), (other, _)| one == other);
+        let repeated = of_one_number.flat_map(|entries| {
+            let (first, others) = (&entries[0].1, &entries[1..]);
+            others.iter().take_while(move |(_, entry)| is_same(first, entry))
+        });
+        repeated.map(|(_, entry)| entry.key.span.start).collect()
+    }
+
     /// The changes after which some entries are gone, others are added behind them, and all of them are numbered and counted.
     pub(super) fn rewritten(&self, view: &View<'_>, without: &BTreeSet<u32>, more: &[Index]) -> Vec<Edit> {
         let mut edits = Vec::new();

@@ -1,5 +1,6 @@
 //! What an object's section is about, as far as rules over the text need it.
 
+use crate::eds::coded;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::{ObjectPart, Part};
 
@@ -19,7 +20,7 @@ pub(super) enum Form {
 pub(super) fn form(object: &ObjectPart<'_>) -> Option<Form> {
     let part = object.object.as_ref()?;
     let is_compact = || number(part, "CompactSubObj").is_some_and(|number| number != 0);
-    match part.value("ObjectType").map_or(Some(7), |value| lenient_integer(value.value))? {
+    match part.value("ObjectType").map_or(Some(7), |value| coded::object_code(value.value))? {
         2 | 5 | 7 if object.subs.is_empty() => Some(Form::Single),
         6 | 8 | 9 if is_compact() => Some(Form::Compact),
         6 | 8 | 9 => Some(Form::Structured),

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::{made, without_place};
+use super::{made, without_place, words};
 use crate::ast::{ChannelDecl, IndexRange};
 use crate::diag::{Diagnostics, shorten};
 use crate::eds::codes;
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::{Entry, Part, View};
-use crate::model::{Access, DataType, Index};
+use crate::model::{Access, Index};
 use crate::source::Spanned;
 
 /// The first letters of the keys of a segment; its number follows.
@@ -33,7 +33,7 @@ pub(super) fn read(view: &View<'_>, diagnostics: &mut Diagnostics) -> Vec<Channe
     for (section, number) in
         section.into_iter().flat_map(|section| numbers.iter().map(move |n| (section, *n)))
     {
-        let read = channel(section, number).and_then(|channel| match clash(&channel, &ends) {
+        let read = channel(section, number, diagnostics).and_then(|channel| match clash(&channel, &ends) {
             Some(why) => Err((channel.range.span, why)),
             None => Ok(channel),
         });
@@ -87,7 +87,7 @@ fn number(entry: &Entry<'_>) -> Option<u32> {
 type Fault = (crate::source::Span, String);
 
 /// One segment.
-fn channel(section: &Part<'_>, number: u32) -> Result<ChannelDecl, Fault> {
+fn channel(section: &Part<'_>, number: u32, diagnostics: &mut Diagnostics) -> Result<ChannelDecl, Fault> {
     let value = |front: &str| {
         let key = format!("{front}{number}");
         section.value(&key).ok_or_else(|| (section.place(), format!("there is no `{key}`")))
@@ -98,11 +98,9 @@ fn channel(section: &Part<'_>, number: u32) -> Result<ChannelDecl, Fault> {
     let (range, type_code, direction, offset) =
         (value("Range")?, value("Type")?, value("Dir")?, value("PPOffset")?);
     let indices = indices(range.value).ok_or_else(|| wrong(range, "indices such as 0xA080-0xA0BF"))?;
-    let code = lenient_integer(type_code.value);
-    let known = DataType::ALL.into_iter().find(|known| Some(i128::from(known.code())) == code);
-    let data_type = known.ok_or_else(|| wrong(type_code, "the index of a data type"))?;
-    let access =
-        Access::from_word(&direction.value.to_ascii_lowercase()).filter(|access| *access != Access::Const);
+    let data_type = words::data_type(type_code, diagnostics)
+        .ok_or_else(|| wrong(type_code, "the index of a data type"))?;
+    let access = words::access(direction, diagnostics).filter(|access| *access != Access::Const);
     let access = access.ok_or_else(|| wrong(direction, "`ro`, `wo`, `rw`, `rwr` or `rww`"))?;
     let (first, difference) = match offset.value.split_once(',') {
         Some((first, second)) => (first, Some(second)),

@@ -1,9 +1,10 @@
 //! Compact storage: arrays described by one section (CiA 306 4.6.3.4.2).
 
+use super::Form;
 use super::entry::{self, Context};
 use super::node_texts;
 use super::shape::{declaration, members, sub, with_shape};
-use super::{made, value};
+use super::{made, value, words};
 use crate::ast::{EntryDecl, ObjectDecl};
 use crate::commissioning::Denoted;
 use crate::diag::{Diagnostic, shorten};
@@ -25,7 +26,9 @@ pub(super) fn number(main: &Part<'_>) -> usize {
 pub(super) fn count(main: &Part<'_>, context: &mut Context<'_>) -> Option<u8> {
     let text = main.value("CompactSubObj")?;
     let read = number::integer(text.value);
-    entry::report(text, read.as_ref(), context);
+    if let Some(number) = &read {
+        words::report(text, number, context.diagnostics);
+    }
     match read.map(|number| number.value) {
         Some(0) => None,
         Some(count @ 1..=254) => u8::try_from(count).ok(),
@@ -33,7 +36,9 @@ pub(super) fn count(main: &Part<'_>, context: &mut Context<'_>) -> Option<u8> {
             let taken = other.filter(|count| *count > 254).map(|_| 254);
             let message = format!("found `CompactSubObj={}`, expected 1 to 254", shorten(text.value));
             let help = "write the number of elements without sub-index 0";
-            context.push(Diagnostic::new(codes::BAD_COUNT, text.span, message).help(help));
+            context.push(
+                Diagnostic::new(codes::BAD_COUNT, text.span, message).help(number::help(text.value, help)),
+            );
             taken
         }
     }
@@ -52,7 +57,7 @@ pub(super) fn object(
     let id = EntryId { index, sub: SubIndex(0) };
     // What the section says holds for every element; its own value is none of the object's.
     let node = context.node.take();
-    let common = entry::entry(main, id, ObjectKind::Var, context);
+    let common = entry::entry(main, id, Form::Elements, context);
     context.node = node;
     node_texts::read(main, Denoted::object(index), None, context);
     let data_type = entry::type_of(&common);
@@ -88,7 +93,7 @@ pub(super) fn object(
         entry::count_of("NrOfObjects", count, Access::Ro, place)
     };
     let sub0 = match part.subs.get(&0) {
-        Some(section) => sub(id, kind, section, context),
+        Some(section) => sub(id, section, context),
         None => sub0,
     };
     let head = EntryDecl { name: common.name, eds: common.eds, ..EntryDecl::empty(place) };
@@ -114,10 +119,9 @@ fn listed<'d>(
         } else {
             let message =
                 format!("found `{}`, expected an element from 1 to {count}", shorten(entry.key.value));
-            context.push(
-                Diagnostic::new(codes::COMPACT_ELEMENT, entry.key.span, message)
-                    .help("write the sub-index in decimal, or raise `CompactSubObj`"),
-            );
+            context.push(Diagnostic::new(codes::COMPACT_ELEMENT, entry.key.span, message).help(
+                number::help(entry.key.value, "write the sub-index in decimal, or raise `CompactSubObj`"),
+            ));
         }
     }
     found

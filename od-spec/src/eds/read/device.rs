@@ -4,12 +4,11 @@
 use super::{made, owned};
 use crate::ast::{DeviceDecl, FileDecl, Name, ObjectDecl, VendorDecl};
 use crate::decode::is_device_key;
-use crate::eds::bit_rate::BIT_RATES;
 use crate::eds::dates::{date, time};
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::{Part, View};
-use crate::model::{DataType, DateTime, Index};
+use crate::model::{BIT_RATES, DataType, DateTime, Index};
 use crate::source::{Span, Spanned};
 
 /// The longest key of a device.

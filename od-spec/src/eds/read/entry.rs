@@ -2,14 +2,14 @@
 
 use super::comments::Meanings;
 use super::node::NodeDecl;
-use super::{made, owned, value};
+use super::{Form, StandardTypes, made, owned, value, words};
 use crate::ast::{DefaultDecl, EdsDecl, EntryDecl};
-use crate::diag::{About, Diagnostic, Diagnostics, shorten};
-use crate::eds::codes;
-use crate::eds::number;
-use crate::eds::view::Part;
+use crate::diag::{About, Diagnostic, Diagnostics, Edit, shorten};
+use crate::eds::view::{Part, View};
+use crate::eds::{codes, edits, number};
 use crate::limits::{ENTRIES_OF_DEVICE, Room};
-use crate::model::{Access, AccessRight, DataType, EntryId, Fact, Index, ObjectKind, PdoMapping};
+use crate::model::{Access, AccessRight, DataType, EntryId, Fact, Index, PdoMapping};
+use crate::notation::words::yes_no;
 use crate::source::{Span, Spanned};
 use crate::wording::{FileFormat, Key};
 
@@ -24,6 +24,10 @@ pub(super) struct Context<'a> {
     pub room: Option<Room>,
     /// How the file is written.
     pub format: FileFormat,
+    /// The whole file.
+    pub view: &'a View<'a>,
+    /// What CiA 301 says.
+    pub standard: StandardTypes,
 }
 
 impl Context<'_> {
@@ -55,9 +59,9 @@ impl Context<'_> {
 }
 
 /// Reads the section of an entry. The type is always known afterwards, the access always stated.
-pub(super) fn entry(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mut Context<'_>) -> EntryDecl {
+pub(super) fn entry(part: &Part<'_>, id: EntryId, form: Form, context: &mut Context<'_>) -> EntryDecl {
     let place = part.place();
-    let data_type = data_type(part, id, kind, context);
+    let data_type = data_type(part, id, form, context);
     let access = access(part, id, data_type.value, context);
     let read = |key: &str, context: &mut Context<'_>| {
         context.about((id, Fact::Default));
@@ -115,40 +119,40 @@ pub(super) fn name(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) -> S
     made(id.to_string(), place)
 }
 
-fn data_type(part: &Part<'_>, id: EntryId, kind: ObjectKind, context: &mut Context<'_>) -> Spanned<DataType> {
+fn data_type(part: &Part<'_>, id: EntryId, form: Form, context: &mut Context<'_>) -> Spanned<DataType> {
     context.about((id, Fact::Type));
-    let is_domain = kind == ObjectKind::Domain;
     let Some(text) = part.value("DataType") else {
-        let is_count = kind != ObjectKind::Var && !is_domain && id.sub.0 == 0;
-        let taken = if is_count { DataType::Unsigned8 } else { DataType::Domain };
-        if !is_domain {
-            let message =
-                format!("{id} has no {}; it is taken as {taken}", context.format.key(Key::DataType));
-            let example = context.format.set(Key::DataType, "0x0007");
-            let help = format!("add the index of its data type, such as {example}");
-            context.push(Diagnostic::new(codes::MISSING_DATA_TYPE, part.place(), message).help(help));
+        let known = form.standard_type(id, context.standard);
+        if form != Form::Domain {
+            let diagnostic = without_type(part, id, known, context);
+            context.push(diagnostic);
         }
-        return Spanned::new(taken, part.place());
+        return Spanned::new(known.unwrap_or(DataType::Domain), part.place());
     };
-    let read = number::integer(text.value);
-    let code = read.as_ref().map(|number| number.value);
-    let known = DataType::ALL.into_iter().find(|known| Some(i128::from(known.code())) == code);
-    let Some(known) = known else {
-        let message = format!("{id}: there is no data type `{}`; it is taken as DOMAIN", shorten(text.value));
-        let help = "write the index of a data type of CiA 301, such as `0x0007` for UNSIGNED32";
-        context.push(Diagnostic::new(codes::UNKNOWN_DATA_TYPE, text.span, message).help(help));
-        return Spanned::new(DataType::Domain, text.span);
-    };
-    report(text, read.as_ref(), context);
-    Spanned::new(known, text.span)
+    if let Some(known) = words::data_type(text, context.diagnostics) {
+        return Spanned::new(known, text.span);
+    }
+    let taken = form.standard_type(id, context.standard).unwrap_or(DataType::Domain);
+    let message = format!("{id}: there is no data type `{}`; it is taken as {taken}", shorten(text.value));
+    let help = "write the index of a data type of CiA 301, such as `0x0007` for UNSIGNED32";
+    context.push(
+        Diagnostic::new(codes::UNKNOWN_DATA_TYPE, text.span, message).help(number::help(text.value, help)),
+    );
+    Spanned::new(taken, text.span)
 }
 
-/// Says how a number differs from what the standard has.
-pub(super) fn report(text: Spanned<&str>, read: Option<&number::Number>, context: &mut Context<'_>) {
-    let Some(number) = read else { return };
-    for deviation in &number.deviations {
-        context.push(value::deviates(text, deviation, number.value));
-    }
+/// An entry that says no data type; `known` is the one that CiA 301 gives it.
+fn without_type(part: &Part<'_>, id: EntryId, known: Option<DataType>, context: &Context<'_>) -> Diagnostic {
+    let taken = known.unwrap_or(DataType::Domain);
+    let message = format!("{id} has no {}; it is taken as {taken}", context.format.key(Key::DataType));
+    let mut diagnostic = Diagnostic::new(codes::MISSING_DATA_TYPE, part.place(), message);
+    let Some(known) = known else {
+        let example = context.format.set(Key::DataType, "0x0007");
+        return diagnostic.help(format!("add the index of its data type, such as {example}"));
+    };
+    let code = format!("0x{:04X}", known.code());
+    diagnostic.edits.extend(edits::set(context.view, part, "DataType", &code));
+    diagnostic.help(format!("add {}: CiA 301 gives it this type", context.format.set(Key::DataType, &code)))
 }
 
 fn access(part: &Part<'_>, id: EntryId, data_type: DataType, context: &mut Context<'_>) -> Spanned<Access> {
@@ -165,41 +169,13 @@ fn access(part: &Part<'_>, id: EntryId, data_type: DataType, context: &mut Conte
         context.push(Diagnostic::new(codes::MISSING_ACCESS, place, message).help(help));
         return Spanned::new(Access::Ro, place);
     };
-    let mut deviations = Vec::new();
-    let bare = number::bare(text.value, &mut deviations);
-    let lower = bare.to_ascii_lowercase();
-    let Some(access) = Access::from_word(&lower) else {
-        let taken = match lower.as_str() {
-            "w" => Access::Wo,
-            _ => Access::Ro,
-        };
-        let message = format!(
-            "{id}: there is no access type `{}`; it is taken as {}",
-            shorten(text.value),
-            taken.word()
-        );
-        let help = "write `ro`, `wo`, `rw`, `rwr`, `rww` or `const`, as the manual has it";
-        context.push(Diagnostic::new(codes::UNKNOWN_ACCESS, text.span, message).help(help));
-        return Spanned::new(taken, text.span);
-    };
-    if !deviations.is_empty() {
-        context.push(with_remark(text, access.word()));
-    } else if bare != access.word() {
-        let message = format!("found `{bare}`, expected `{}`", access.word());
-        context.push(
-            Diagnostic::new(codes::ACCESS_SPELLING, text.span, message)
-                .help("write it in small letters")
-                .edit(text.span, access.word()),
-        );
+    if let Some(access) = words::access(text, context.diagnostics) {
+        return Spanned::new(access, text.span);
     }
-    Spanned::new(access, text.span)
-}
-
-fn with_remark(text: Spanned<&str>, word: &str) -> Diagnostic {
-    let message = format!("found `{}`, expected `{word}`", shorten(text.value));
-    Diagnostic::new(codes::REMARK_IN_VALUE, text.span, message)
-        .help("put the remark on a line of its own above the section")
-        .edit(text.span, word)
+    let message = format!("{id}: there is no access type `{}`; it is taken as ro", shorten(text.value));
+    let help = "write `ro`, `wo`, `rw`, `rwr`, `rww` or `const`, as the manual has it";
+    context.push(Diagnostic::new(codes::UNKNOWN_ACCESS, text.span, message).help(help));
+    Spanned::new(Access::Ro, text.span)
 }
 
 /// Into which PDOs an entry may be mapped: an EDS says only whether, and the access type into which.
@@ -212,16 +188,24 @@ fn mapping(
     context.about((id, Fact::Mapping));
     let text = part.value("PDOMapping")?;
     let number = number::integer(text.value);
-    if !matches!(number.as_ref().map(|number| number.value), Some(0 | 1)) {
+    let word = yes_no(text.value).filter(|_| number.is_none());
+    let value = number.as_ref().map(|number| number.value).or(word.map(i128::from));
+    if !matches!(value, Some(0 | 1)) || word.is_some() {
         let message = format!(
             "{id}: found {}, expected 0 or 1",
             context.format.set(Key::Mapping, &shorten(text.value))
         );
-        context.push(Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0 or 1"));
+        let mut diagnostic = Diagnostic::new(codes::BAD_FLAG, text.span, message)
+            .help(number::help(text.value, "write 0 or 1"));
+        let meant = word.map(|word| i128::from(word).to_string());
+        diagnostic.edits.extend(meant.map(|meant| Edit { span: text.span, text: meant }));
+        context.push(diagnostic);
     }
-    report(text, number.as_ref(), context);
+    if let Some(number) = &number {
+        words::report(text, number, context.diagnostics);
+    }
     let mapping = match access {
-        _ if number.is_none_or(|number| number.value != 1) => PdoMapping::None,
+        _ if value != Some(1) => PdoMapping::None,
         Access::Const | Access::Ro | Access::Rwr => PdoMapping::Transmit,
         Access::Wo | Access::Rww => PdoMapping::Receive,
         Access::Rw => PdoMapping::Both,
@@ -239,10 +223,13 @@ pub(super) fn flags(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) -> 
             "{id}: found {}, expected a number",
             context.format.set(Key::ObjectFlags, &shorten(text.value))
         );
-        context.push(Diagnostic::new(codes::BAD_FLAG, text.span, message).help("write 0, 1, 2 or 3"));
+        context.push(
+            Diagnostic::new(codes::BAD_FLAG, text.span, message)
+                .help(number::help(text.value, "write 0, 1, 2 or 3")),
+        );
         return None;
     };
-    report(text, read.as_ref(), context);
+    words::report(text, number, context.diagnostics);
     let (no_write, no_scan) = (number.value & 1 != 0, number.value & 2 != 0);
     let decl = EdsDecl { default: None, access: None, no_write, no_scan };
     (no_write || no_scan).then_some(Spanned::new(decl, text.span))

@@ -1,6 +1,6 @@
 //! `[xxxxObjectLinks]` (CiA 306 4.6.4): the objects that belong together with one.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::eds::number::lenient_integer;
 use crate::eds::view::Part;
@@ -16,10 +16,11 @@ pub(super) fn links(part: &Part<'_>) -> Vec<Spanned<Index>> {
         let index = u16::try_from(lenient_integer(entry.value.value)?).ok()?;
         Some((number, Spanned::new(Index(index), entry.value.span)))
     });
-    // Of two lines with one number, both name an object.
+    // Of two lines with one number, both name an object. What is named twice is one link.
     let mut by_number: BTreeMap<u32, Vec<Spanned<Index>>> = BTreeMap::new();
     for (number, link) in numbered {
         by_number.entry(number).or_default().push(link);
     }
-    by_number.into_values().flatten().collect()
+    let mut seen = BTreeSet::new();
+    by_number.into_values().flatten().filter(|link| seen.insert(link.value)).collect()
 }

@@ -9,6 +9,7 @@ mod comments;
 mod compact;
 mod device;
 mod entry;
+mod form;
 mod implicit_pdos;
 mod links;
 mod modules;
@@ -18,6 +19,7 @@ mod objects;
 mod shape;
 mod unread;
 mod value;
+mod words;
 
 use super::view::View;
 use crate::ast::{DeviceDecl, ObjectDecl, Spec};
@@ -25,6 +27,7 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::limits::{ENTRIES_OF_DEVICE, Room};
 use crate::source::{Span, Spanned};
 
+pub(crate) use form::{Form, StandardTypes};
 pub(crate) use node::{FileUse, NodeDecl};
 
 /// What an EDS or DCF says.
@@ -36,10 +39,15 @@ pub(crate) struct Read {
 }
 
 /// Reads a file under its name.
-pub(crate) fn read(view: &View<'_>, name: &str, diagnostics: &mut Diagnostics) -> Read {
+pub(crate) fn read(
+    view: &View<'_>,
+    name: &str,
+    standard: StandardTypes,
+    diagnostics: &mut Diagnostics,
+) -> Read {
     let mut node = view.is_dcf.then(|| node::read(view));
     let mut meanings = comments::Meanings::default();
-    let objects = objects(view, node.as_mut(), &mut meanings, diagnostics);
+    let objects = objects(view, node.as_mut(), &mut meanings, standard, diagnostics);
     unread::tell(view, diagnostics);
     let (units, types) = meanings.into_declarations();
     let device = DeviceDecl {
@@ -83,10 +91,12 @@ fn objects(
     view: &View<'_>,
     node: Option<&mut NodeDecl>,
     meanings: &mut comments::Meanings,
+    standard: StandardTypes,
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
     let room = Some(Room::new(ENTRIES_OF_DEVICE));
-    let mut context = entry::Context { node, meanings, diagnostics, room, format: view.facts.format };
+    let format = view.facts.format;
+    let mut context = entry::Context { node, meanings, diagnostics, room, format, view, standard };
     let described = view.objects.iter().filter(|(_, part)| part.object.is_some() || !part.subs.is_empty());
     // A declaration is large: the list has room for as many as there are, and no more.
     let mut objects: Vec<ObjectDecl> = Vec::with_capacity(view.objects.len());

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::Form;
 use super::entry::{self, Context};
 use super::made;
 use super::node_texts;
@@ -54,7 +55,7 @@ pub(super) fn add(view: &View<'_>, objects: &mut Vec<ObjectDecl>, context: &mut 
     }
 }
 
-/// The numbers of the connected modules, in order.
+/// The numbers of the connected modules, in order. Two in one place are two modules, unless a line only repeats another.
 fn connected(view: &View<'_>) -> Vec<u32> {
     let Some(section) = view.section(Topic::ConnectedModules) else { return Vec::new() };
     let slots = section.entries().filter_map(|entry| {
@@ -62,7 +63,14 @@ fn connected(view: &View<'_>) -> Vec<u32> {
         let module = lenient_integer(entry.value.value)?;
         Some((slot, u32::try_from(module).ok()?))
     });
-    slots.collect::<BTreeMap<i128, u32>>().into_values().collect()
+    let mut by_slot: BTreeMap<i128, Vec<u32>> = BTreeMap::new();
+    for (slot, module) in slots {
+        let modules = by_slot.entry(slot).or_default();
+        if modules.as_slice() != [module] {
+            modules.push(module);
+        }
+    }
+    by_slot.into_values().flatten().collect()
 }
 
 /// The objects that a module brings as they are.
@@ -139,7 +147,7 @@ impl Extension {
         if !context.fits(self.index, entries.max(1), section.size(), section.place()) {
             return;
         }
-        let entry = entry::entry(section, id, ObjectKind::Var, context);
+        let entry = entry::entry(section, id, Form::Elements, context);
         node_texts::leave_out(section, id, context);
         let width = entry::type_of(&entry).and_then(DataType::bits).unwrap_or(8);
         let highest = section.value("ObjExtend").and_then(|text| lenient_integer(text.value));

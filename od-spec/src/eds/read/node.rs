@@ -2,7 +2,7 @@
 
 use crate::ast::Name;
 use crate::commissioning::Denoted;
-use crate::eds::bit_rate::of_bits_per_second;
+use crate::eds::coded;
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
@@ -59,8 +59,7 @@ pub(super) fn read(view: &View<'_>) -> NodeDecl {
     NodeDecl {
         node: number("NodeID").and_then(|id| u8::try_from(id).ok()).filter(|id| (1..=127).contains(id)),
         node_name: text("NodeName"),
-        bit_rate: number("Baudrate")
-            .and_then(|rate| of_bits_per_second(rate).or_else(|| u16::try_from(rate).ok())),
+        bit_rate: section.value("Baudrate").and_then(|text| bit_rate(text.value)),
         net_number: number("NetNumber").and_then(|number| u32::try_from(number).ok()),
         net_name: text("NetworkName"),
         serial_number: number("LSS_SerialNumber")
@@ -70,4 +69,10 @@ pub(super) fn read(view: &View<'_>) -> NodeDecl {
         denotations: Vec::new(),
         files: Vec::new(),
     }
+}
+
+/// A bit rate in kbit/s: one of CiA 301 in any unit, or another one. 0 is none.
+fn bit_rate(text: &str) -> Option<u16> {
+    let other = || u16::try_from(lenient_integer(text)?).ok().filter(|rate| *rate != 0);
+    coded::bit_rate(text).or_else(other)
 }

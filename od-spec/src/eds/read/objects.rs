@@ -1,17 +1,17 @@
 //! Objects: VAR, ARRAY, RECORD and DOMAIN, from the sections that describe them.
 
+use super::Form;
 use super::compact;
 use super::entry::{self, Context};
 use super::links;
 use super::node_texts;
 use super::shape::{declaration, members, sub, with_shape};
-use super::without_place;
+use super::{without_place, words};
 use crate::ast::{EntryDecl, ObjectDecl};
 use crate::commissioning::Denoted;
 use crate::diag::{Diagnostic, shorten};
-use crate::eds::codes;
-use crate::eds::number;
 use crate::eds::view::{ObjectPart, Part};
+use crate::eds::{coded, codes, number};
 use crate::model::{EntryId, Index, ObjectKind, SubIndex};
 use crate::source::Span;
 use crate::wording::Key;
@@ -61,7 +61,8 @@ fn described(
     }
     match kind {
         ObjectKind::Var | ObjectKind::Domain => {
-            let entry = entry::entry(main, id, kind, context);
+            let form = if kind == ObjectKind::Domain { Form::Domain } else { Form::Value };
+            let entry = entry::entry(main, id, form, context);
             node_texts::read(main, Denoted::object(index), entry::type_of(&entry), context);
             Some(declaration(index, place, entry))
         }
@@ -85,11 +86,14 @@ fn kind(
 ) -> Option<ObjectKind> {
     let has_subs = part.subs.keys().any(|sub| *sub > 0);
     let text = main.value("ObjectType");
-    let read = text.and_then(|text| number::integer(text.value));
-    if let Some(text) = text {
-        entry::report(text, read.as_ref(), context);
+    let code = text.and_then(|text| coded::object_code(text.value));
+    if let (Some(text), Some(code)) = (text, code) {
+        match number::integer(text.value) {
+            Some(number) => words::report(text, &number, context.diagnostics),
+            None => words::object_type(text, code, context.diagnostics),
+        }
     }
-    let stated = match (text, read.map(|number| number.value)) {
+    let stated = match (text, code) {
         (None, _) => Some(ObjectKind::Var),
         (Some(_), Some(2)) => Some(ObjectKind::Domain),
         (Some(_), Some(7)) => Some(ObjectKind::Var),
@@ -115,6 +119,7 @@ fn kind(
         let why = if has_subs { "has sub-indices" } else { "has none" };
         let message = format!("{index}: found {found}, but it {why}; it is taken as {}", taken.name());
         let help = "write 0x7 for VAR, 0x8 for ARRAY, 0x9 for RECORD, 0x2 for DOMAIN";
+        let help = number::help(text.map_or("", |text| text.value), help);
         context.push(Diagnostic::new(codes::BAD_OBJECT_TYPE, place, message).help(help));
     }
     Some(taken)
@@ -130,7 +135,7 @@ fn structured(
 ) -> ObjectDecl {
     let members = members(index, part, context);
     let sub0 = match part.subs.get(&0) {
-        Some(count) => Some(Box::new(sub(EntryId { index, sub: SubIndex(0) }, kind, count, context))),
+        Some(count) => Some(Box::new(sub(EntryId { index, sub: SubIndex(0) }, count, context))),
         None => {
             let message = format!("{index} has no sub-index 0");
             let data_type = context.format.set(Key::DataType, "0x0005");

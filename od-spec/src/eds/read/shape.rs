@@ -1,13 +1,13 @@
 //! Declarations of objects, and of their elements or members.
 
+use super::Form;
 use super::entry::{self, Context};
-use super::node_texts;
+use super::{node_texts, words};
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
 use crate::commissioning::Denoted;
 use crate::diag::{Diagnostic, shorten};
-use crate::eds::codes;
-use crate::eds::number;
 use crate::eds::view::{ObjectPart, Part};
+use crate::eds::{coded, codes};
 use crate::model::{EntryId, Index, ObjectKind, SubIndex};
 use crate::source::{Span, Spanned};
 use crate::wording::Key;
@@ -71,39 +71,33 @@ pub(super) fn members(
             continue;
         };
         let id = EntryId { index, sub: SubIndex(number) };
-        let member = sub(id, ObjectKind::Var, section, context);
+        let member = sub(id, section, context);
         members.push((Spanned::new(id.sub, section.place()), member));
     }
     members
 }
 
-/// One sub-index, in an object of a kind; from sub-index 1 on it stands for itself.
-pub(super) fn sub(
-    id: EntryId,
-    object: ObjectKind,
-    section: &Part<'_>,
-    context: &mut Context<'_>,
-) -> EntryDecl {
+/// One sub-index of an ARRAY or RECORD.
+pub(super) fn sub(id: EntryId, section: &Part<'_>, context: &mut Context<'_>) -> EntryDecl {
     context.about(id);
-    let text = section.value("ObjectType");
-    let code = text.map(|text| number::lenient_integer(text.value));
-    let kind = match code {
-        None | Some(Some(7)) => object,
-        Some(Some(2)) => ObjectKind::Domain,
-        Some(_) => {
-            let shown = text.map(|text| shorten(text.value)).unwrap_or_default();
-            let found = context.format.set(Key::ObjectType, &shown);
-            let message = format!("{id}: a sub-index is a VAR, found {found}");
-            let place = text.map_or(section.place(), |text| text.span);
-            context.push(
-                Diagnostic::new(codes::BAD_OBJECT_TYPE, place, message)
-                    .help("write `0x7`")
-                    .edit(place, "0x7"),
-            );
-            object
+    let usual = Form::of_sub(id);
+    let form = section.value("ObjectType").map_or(usual, |text| match coded::object_code(text.value) {
+        Some(code @ (2 | 7)) => {
+            words::object_type(text, code, context.diagnostics);
+            if code == 2 { Form::Domain } else { usual }
         }
-    };
-    let entry = entry::entry(section, id, kind, context);
+        _ => {
+            let found = context.format.set(Key::ObjectType, &shorten(text.value));
+            let message = format!("{id}: a sub-index is a VAR, found {found}");
+            context.push(
+                Diagnostic::new(codes::BAD_OBJECT_TYPE, text.span, message)
+                    .help("write `0x7`")
+                    .edit(text.span, "0x7"),
+            );
+            usual
+        }
+    });
+    let entry = entry::entry(section, id, form, context);
     node_texts::read(section, Denoted::entry(id), entry::type_of(&entry), context);
     context.about(id.index);
     entry

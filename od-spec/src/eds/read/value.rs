@@ -92,9 +92,10 @@ fn integer(text: Spanned<&str>, data_type: DataType, diagnostics: &mut Diagnosti
 fn formula(text: Spanned<&str>, diagnostics: &mut Diagnostics) -> Option<String> {
     let shown = shorten(text.value);
     let Some(formula) = number::formula(text.value) else {
+        let added = text.value.rsplit_once('+').map_or("", |(_, added)| added.trim());
         diagnostics.push(
             Diagnostic::new(codes::BAD_FORMULA, text.span, format!("found `{shown}`, expected a formula"))
-                .help("write `$NODEID`, or `$NODEID+0x180`"),
+                .help(number::help(added, "write `$NODEID`, or `$NODEID+0x180`")),
         );
         return None;
     };
@@ -200,7 +201,7 @@ fn unreadable(text: Spanned<&str>, expected: &str) -> Diagnostic {
     let help = match expected {
         _ if is_hex => format!("write `0x{digits}` if that is a hexadecimal number"),
         "OCTET_STRING" => "write pairs of hexadecimal digits, such as `01A1053C`".to_owned(),
-        _ => "write a number, in decimal or with `0x`".to_owned(),
+        _ => number::help(text.value, "write a number, in decimal or with `0x`"),
     };
     Diagnostic::new(codes::BAD_NUMBER, text.span, message).help(help)
 }
@@ -208,6 +209,7 @@ fn unreadable(text: Spanned<&str>, expected: &str) -> Diagnostic {
 /// A number that is understood, but not written as the standard has it.
 pub(super) fn deviates(text: Spanned<&str>, deviation: &Deviation, value: i128) -> Diagnostic {
     let shown = shorten(text.value);
+    let bare = number::bare(text.value, &mut Vec::new());
     match deviation {
         Deviation::Octal => {
             Diagnostic::new(codes::OCTAL, text.span, format!("`{shown}` is octal and means {value}"))
@@ -221,13 +223,11 @@ pub(super) fn deviates(text: Spanned<&str>, deviation: &Deviation, value: i128) 
         Deviation::NegativeHex | Deviation::PlusSign | Deviation::Fraction => {
             without(text, deviation, &value.to_string())
         }
-        Deviation::Suffix(suffix) => {
-            without(text, deviation, text.value.get(..suffix.start).unwrap_or(text.value))
-        }
+        Deviation::Suffix(suffix) => without(text, deviation, bare.get(..suffix.start).unwrap_or(bare)),
         Deviation::Remark(remark) => {
             without(text, deviation, text.value.get(..remark.start).unwrap_or(text.value))
         }
-        Deviation::Quoted => without(text, deviation, text.value.trim_matches('"')),
+        Deviation::Quoted => without(text, deviation, bare),
     }
 }
 

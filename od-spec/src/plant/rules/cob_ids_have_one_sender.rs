@@ -97,5 +97,8 @@ pub fn shared_cob_id(first: (u8, &Dictionary), second: (u8, &Dictionary)) -> Opt
     };
     let message =
         format!("{} and {} have the COB-ID {}", words(&one, first), words(other, second), shown(one.id));
-    Some(Diagnostic::without_place(CODE, message).help("give one of them another COB-ID, or switch it off (bit 31)"))
+    Some(
+        Diagnostic::without_place(CODE, message)
+            .help("give one of them another COB-ID, or switch it off (bit 31)"),
+    )
 }

@@ -5,6 +5,7 @@ use od_spec::fix;
 use od_spec::source::SourceMap;
 use od_tests::root;
 
+use crate::format_rules::agreement::difference;
 use crate::format_rules::{codes, said};
 
 /// What becomes of a planted fault.
@@ -270,6 +271,7 @@ fn a_planted_fault_is_found_at_its_line_and_mended() {
         if outcome != fault.outcome {
             wrong.push(format!("{what}: {outcome:?}, expected {:?}", fault.outcome));
         }
+        wrong.extend(difference(name, text.as_bytes(), &fixed).map(|differs| format!("{what}: {differs}")));
         let again = fix(name, &fixed.to_bytes()).unwrap();
         assert!(again.changes.is_empty(), "{what}: {:?}", again.changes);
     }

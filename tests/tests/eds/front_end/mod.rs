@@ -9,6 +9,7 @@ mod node;
 mod own_files;
 mod random;
 mod reading;
+mod words;
 
 use od_spec::model::Dictionary;
 use od_spec::source::SourceMap;

@@ -1,6 +1,6 @@
 //! Files as other programs write them: all from parameters, without namespaces, with types that are lost, and with faults.
 
-use od_spec::model::{Access, DataType, EntryId, Index, PdoMapping, SubIndex, TypeKind, Value};
+use od_spec::model::{Access, DataType, EntryId, Index, ObjectKind, PdoMapping, SubIndex, TypeKind, Value};
 
 use crate::xdd::{compiled, said};
 
@@ -167,4 +167,93 @@ fn namespaces_do_not_matter() {
         said("open.xdd", "<?xml version=\"1.0\"?>\n<a>\n  <ä b=1/>\n</a>"),
         "open.xdd:3:8: error[XDD101]: this is not XML: expected a quote not '1' (correct it; nothing of the file was read)\n"
     );
+}
+
+#[test]
+fn words_are_read_as_what_they_say_and_cia_301_gives_types() {
+    let parameters = "<parameter uniqueID=\"N\" access=\"readWrite\"><defaultValue value=\"0\"/></parameter>\n\
+        <parameter uniqueID=\"E\" access=\"Read-Only\"/><parameter uniqueID=\"U\" access=\"write\"><UINT/></parameter>\n\
+        <parameter uniqueID=\"W\" access=\"read\"><UNSIGNED32/></parameter>\n";
+    let objects = "\
+        <CANopenObject index=\"1003\" name=\"errors\" objectType=\"ARRAY\" subNumber=\"2\">\
+        <CANopenSubObject subIndex=\"0000\" name=\"count\" objectType=\"7\" PDOmapping=\"no\" uniqueIDRef=\"N\"/>\
+        <CANopenSubObject subIndex=\"0001\" name=\"error\" objectType=\"7\" PDOmapping=\"no\" uniqueIDRef=\"E\"/></CANopenObject>\n\
+        <CANopenObject index=\"1017\" name=\"heartbeat\" objectType=\"7\" accessType=\"readWrite\" defaultValue=\"500\" PDOmapping=\"no\"/>\n\
+        <CANopenObject index=\"2000\" name=\"a\" objectType=\"VAR\" dataType=\"UNSIGNED16\" accessType=\"RW\" defaultValue=\"7\" PDOmapping=\"yes\"/>\n\
+        <CANopenObject index=\"2001\" name=\"b\" objectType=\"7\" dataType=\"INT\" accessType=\"r/w\" defaultValue=\"-7\" PDOmapping=\"no\"/>\n\
+        <CANopenObject index=\"2002\" name=\"c\" objectType=\"7\" PDOmapping=\"no\" uniqueIDRef=\"U\"/>\n\
+        <CANopenObject index=\"2003\" name=\"d\" objectType=\"7\" PDOmapping=\"no\" uniqueIDRef=\"W\"/>\n\
+        <CANopenObject index=\"2004\" name=\"e\" objectType=\"9\" subNumber=\"2\">\
+        <CANopenSubObject subIndex=\"00\" name=\"count\" objectType=\"7\" accessType=\"ro\" defaultValue=\"1\" PDOmapping=\"no\"/>\
+        <CANopenSubObject subIndex=\"01\" name=\"one\" objectType=\"7\" accessType=\"ro\" defaultValue=\"1\" PDOmapping=\"no\"/></CANopenObject>\n";
+    let text = file("", parameters, objects);
+    let (read, _) = compiled("tank.xdd", text.clone());
+    let system = read.system.unwrap();
+    let device = &system.devices[0];
+    let number = |number| Some(Value::Integer(number));
+    for (entry, data_type, access, default) in [
+        (id(0x1003, 0), DataType::Unsigned8, Access::Rw, number(0)),
+        (id(0x1003, 1), DataType::Unsigned32, Access::Ro, None),
+        (id(0x1017, 0), DataType::Unsigned16, Access::Rw, number(500)),
+        (id(0x2000, 0), DataType::Unsigned16, Access::Rw, number(7)),
+        (id(0x2001, 0), DataType::Integer16, Access::Rw, number(-7)),
+        (id(0x2002, 0), DataType::Unsigned16, Access::Wo, None),
+        (id(0x2003, 0), DataType::Unsigned32, Access::Ro, None),
+        (id(0x2004, 0), DataType::Unsigned8, Access::Ro, number(1)),
+        (id(0x2004, 1), DataType::Domain, Access::Ro, None),
+    ] {
+        let found = device.entry(entry).unwrap();
+        assert_eq!(
+            (found.data_type, found.access, found.default.clone()),
+            (data_type, access, default),
+            "{entry}"
+        );
+    }
+    assert_eq!(device.objects[&Index(0x1003)].kind, ObjectKind::Array);
+    assert_eq!(device.entry(id(0x2000, 0)).unwrap().pdo, PdoMapping::Both);
+    let found = said("tank.xdd", text);
+    let about: Vec<&str> = found
+        .lines()
+        .filter(|line| line.contains("[XDD"))
+        .filter_map(|line| line.split_once("]: ")?.1.split_once(" (").map(|(message, _)| message))
+        .collect();
+    assert_eq!(
+        about,
+        [
+            "1003h.1: found `access=\"Read-Only\"`; it is taken as `ro`",
+            "1003h: found `objectType=\"ARRAY\"`; it is taken as ARRAY",
+            "1003h has no data type; it is taken as UNSIGNED8",
+            "1003h.1 has no data type; it is taken as UNSIGNED32",
+            "1017h has no data type; it is taken as UNSIGNED16",
+            "1017h: found `accessType=\"readWrite\"`; it is taken as `rw`",
+            "2000h: found `objectType=\"VAR\"`; it is taken as VAR",
+            "2000h: found `dataType=\"UNSIGNED16\"`; it is taken as UNSIGNED16",
+            "2000h: found `accessType=\"RW\"`; it is taken as `rw`",
+            "2000h: found `PDOmapping=\"yes\"`; it is taken as `optional`",
+            "2001h: found `dataType=\"INT\"`; it is taken as INTEGER16",
+            "2001h: found `accessType=\"r/w\"`; it is taken as `rw`",
+            "2004h has no data type; it is taken as UNSIGNED8",
+            "2004h.1 has no data type; it is taken as DOMAIN",
+        ]
+    );
+}
+
+#[test]
+fn a_bit_rate_of_a_node_that_is_none_is_reported() {
+    let commissioned = |rate: &str| {
+        let element = format!(
+            "<deviceCommissioning NodeID=\"2\" nodeName=\"tank\" actualBaudRate=\"{rate}\" networkNumber=\"0\" networkName=\"\" CANopenManager=\"false\"/>"
+        );
+        file("", "", "").replace("</NetworkManagement>", &format!("{element}</NetworkManagement>"))
+    };
+    let read = |rate: &str| {
+        let (compiled, _) = compiled("tank.xdc", commissioned(rate));
+        let found = said("tank.xdc", commissioned(rate));
+        (compiled.node.unwrap().bit_rate, found.contains("actualBaudRate"))
+    };
+    assert_eq!((read("125 Kbps"), read("500000")), ((125, false), (500, false)));
+    // The highest that the device has, which is what `odgen` takes where nothing is said.
+    assert_eq!((read("0"), read("auto-baudRate")), ((1000, true), (1000, true)));
+    // One that CiA 301 does not have is kept.
+    assert_eq!(read("100 Kbps"), (100, true));
 }

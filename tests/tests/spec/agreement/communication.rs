@@ -55,8 +55,7 @@ fn flags() -> Vec<Case> {
         refused("12 bits, switched off", &receive(NOT_VALID | 0x800), UNUSABLE, invalid),
         accepted("switched off", &receive(NOT_VALID | 0x6E1)),
         accepted("switched off, without an identifier", &receive(NOT_VALID)),
-        refused("switched off, with a restricted identifier", &receive(NOT_VALID | 0x601), UNUSABLE, invalid)
-            .but(Device, Said::Accepted, Reason::NoPdoYet),
+        accepted("switched off, with a restricted identifier", &receive(NOT_VALID | 0x601)),
         clash("the identifier of SYNC", &receive(0x080)),
         clash("the identifier of TIME", &[number(0x1400, 1, 0x100), number(0x1012, 0, NOT_VALID | 0x100)]),
         of_its_own(accepted("the identifier of a TIME that the device does not use", &receive(0x100))),

@@ -34,7 +34,6 @@ reasons! {
     BetweenSteps: "a specification states the value of the target, which has no such step";
     OnlyToolsMustNot: "a tool must not write it at each boot; a person with a client may";
     EdsShowsLess: "the EDS shows less access than the device gives, and a DCF goes by the EDS";
-    NoPdoYet: "the PDO does not exist, and its identifier is looked at when it is switched on";
     PassedOnTheWay: "while PDOs are configured one after the other, two may pass through one identifier";
     RealsAreMisread: "PLC tools may misread a default of type REAL: a warning";
 }

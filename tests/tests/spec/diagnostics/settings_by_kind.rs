@@ -151,7 +151,7 @@ fn settings_of_pdo_parameters_are_checked_like_pdos() {
         &["1A00.2=0x00050008"],
     ]), @r#"
         1400.1=0x1: error[OD0503]: 1400h.1: 001h is kept for another service
-        1400.1=0x80000601: error[OD0503]: 1400h.1: 601h is kept for another service
+        1400.1=0x80000601: 1400h.1 = Integer(2147485185)
         1400.1=0x800: error[OD0503]: 1400h.1: 800h is no 11-bit identifier
         1400.1=0x20000300: error[OD0503]: 1400h.1: 20000300h is no 11-bit identifier
         1400.1=0xC0000300: error[OD0508]: 1400h.1: an RPDO is not asked for by remote frames

@@ -21,12 +21,6 @@ pub(crate) const REFUSED_BY_POLICY: &[Difference] = &[
         settings: || vec![Setting::text(0x2013, 0, "a;b")],
     },
     Difference {
-        code: "OD0503",
-        reason: "the PDO does not exist, and its identifier is looked at when it is switched on",
-        device: "bench",
-        settings: || vec![Setting::number(0x1400, 1, 0x8000_0601)],
-    },
-    Difference {
         code: "OD0504",
         reason: "while PDOs are configured one after the other, two may pass through one identifier",
         device: "bench",

@@ -17,7 +17,8 @@ pub(super) fn of_file(checked: &Checked, format: CheckFormat, args: &CheckArgs, 
                 Kind::Eds => Most::OfEds,
                 Kind::Specification | Kind::Unknown => Most::OfSpecification,
             };
-            for_people(shown, sources, most, "`--all`", colour)
+            let shows = if args.all { "`--format json`" } else { "`--all`" };
+            for_people(shown, sources, most, shows, colour)
         }
         CheckFormat::Short => render(shown, sources, Format::Short, colour),
         CheckFormat::Json => json(shown, sources),

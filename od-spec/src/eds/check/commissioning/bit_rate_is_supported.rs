@@ -2,7 +2,7 @@
 
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
-use crate::eds::bit_rate::BIT_RATES;
+use crate::eds::coded;
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
@@ -26,10 +26,7 @@ const CODE: &Code = &Code {
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let rate = view.section(Topic::Commissioning).and_then(|part| part.value("Baudrate"));
     let (Some(rate), Some(device)) = (rate, view.section(Topic::DeviceInfo)) else { return };
-    let number = lenient_integer(rate.value);
-    let Some(standard) = BIT_RATES.into_iter().find(|standard| number == Some(i128::from(*standard))) else {
-        return;
-    };
+    let Some(standard) = coded::bit_rate(rate.value) else { return };
     let key = format!("BaudRate_{standard}");
     let supported = device.value(&key);
     if supported.is_none_or(|supported| lenient_integer(supported.value) == Some(0)) {

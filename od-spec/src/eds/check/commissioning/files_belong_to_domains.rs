@@ -3,8 +3,9 @@
 use super::super::keys;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
-use crate::eds::number::lenient_integer;
+use crate::eds::coded;
 use crate::eds::view::View;
+use crate::model::{Access, DataType};
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 
@@ -24,22 +25,22 @@ const CODE: &Code = &Code {
 };
 
 const DOMAIN: i128 = 0x2;
-const DOMAIN_TYPE: i128 = 0xF;
 
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
     for (_, part) in view.topics().filter(|(topic, _)| keys::is_of_object(*topic)) {
-        let number = |key: &str| part.value(key).and_then(|value| lenient_integer(value.value));
-        let access = part.value("AccessType").map(|value| value.value.to_ascii_lowercase());
-        let is_domain = number("ObjectType") == Some(DOMAIN) || number("DataType") == Some(DOMAIN_TYPE);
-        for (key, refused, does) in [
-            ("UploadFile", &["wo"][..], "cannot be read"),
-            ("DownloadFile", &["ro", "const"][..], "cannot be written"),
+        let text = |key: &str| part.value(key).map(|value| value.value);
+        let access = text("AccessType").and_then(coded::access);
+        let is_domain = text("ObjectType").and_then(coded::object_code) == Some(DOMAIN)
+            || text("DataType").and_then(coded::data_type) == Some(DataType::Domain);
+        for (key, can, does) in [
+            ("UploadFile", Access::is_readable as fn(Access) -> bool, "cannot be read"),
+            ("DownloadFile", Access::is_writable, "cannot be written"),
         ] {
             let Some(file) = part.value(key) else { continue };
             let message = if !is_domain {
                 format!("`{key}` stands at an entry that is no DOMAIN")
-            } else if access.as_deref().is_some_and(|access| refused.contains(&access)) {
+            } else if access.is_some_and(|access| !can(access)) {
                 format!("`{key}` stands at an entry that {does}")
             } else {
                 continue;

@@ -3,7 +3,7 @@
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
 use crate::eds::names::Topic;
-use crate::eds::number::lenient_integer;
+use crate::eds::number::{help, lenient_integer};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -28,6 +28,8 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     };
     if !matches!(lenient_integer(value.value), Some(1..=127 | 255)) {
         let message = format!("found `{}`, expected a node-ID", shorten(value.value));
-        diagnostics.push(Diagnostic::new(CODE, value.span, message).help("node-IDs are 1 to 127"));
+        diagnostics.push(
+            Diagnostic::new(CODE, value.span, message).help(help(value.value, "node-IDs are 1 to 127")),
+        );
     }
 }

@@ -3,7 +3,7 @@
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::names::Topic;
-use crate::eds::number::lenient_integer;
+use crate::eds::number::{help, lenient_integer};
 use crate::eds::view::{Part, View};
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -32,7 +32,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         found.add(value.span, [], || {
             let message = format!("found `{}`, expected 0 or 1", shorten(value.value));
             Diagnostic::new(CODE, value.span, message)
-                .help("write 1 if the device allows this dummy, otherwise 0")
+                .help(help(value.value, "write 1 if the device allows this dummy, otherwise 0"))
         });
     }
     found.finish("dummies", diagnostics);

@@ -3,7 +3,7 @@
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
 use crate::eds::names::Topic;
-use crate::eds::number::integer;
+use crate::eds::number::{help, integer};
 use crate::eds::view::{Entry, View};
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -76,6 +76,8 @@ fn look(entry: &Entry<'_>, key: &str, largest: i128, diagnostics: &mut Diagnosti
         Some(_) => format!("found `{text}`, expected 0 to {largest} as `{key}`"),
         None => format!("found `{text}`, expected a number as `{key}`"),
     };
-    diagnostics
-        .push(Diagnostic::new(CODE, entry.value.span, message).help("write the number that the device has"));
+    diagnostics.push(
+        Diagnostic::new(CODE, entry.value.span, message)
+            .help(help(entry.value.value, "write the number that the device has")),
+    );
 }

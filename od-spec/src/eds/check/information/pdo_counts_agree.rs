@@ -2,7 +2,7 @@
 
 use super::super::edits;
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
 use crate::eds::names::Topic;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
@@ -35,8 +35,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         if declared == described || (compact != 0 && declared > described) {
             continue;
         }
-        let entry = part.key(key);
-        let place = entry.map_or(part.place(), |entry| entry.value.span);
+        let place = part.key(key).map_or(part.place(), |entry| entry.value.span);
         let message =
             format!("`{key}` is {declared}, but the number of {what} PDOs that are described is {described}");
         let mut diagnostic = Diagnostic::new(CODE, place, message);
@@ -46,12 +45,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                 .push(diagnostic.help("describe the others, or write the number of PDOs that are described"));
             continue;
         }
-        let last = part.sections.first().map(edits::last_line);
-        diagnostic.edits.extend(match (entry, last) {
-            (Some(_), _) => Some(Edit { span: place, text: described.to_string() }),
-            (None, Some(line)) => Some(edits::below(view, line, [format!("{key}={described}").as_str()])),
-            (None, None) => None,
-        });
+        diagnostic.edits.extend(edits::set(view, part, key, &described.to_string()));
         diagnostics.push(diagnostic.help(format!("write `{key}={described}`; `odgen fix` does")));
     }
 }

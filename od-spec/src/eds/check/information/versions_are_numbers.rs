@@ -3,7 +3,7 @@
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
 use crate::eds::names::Topic;
-use crate::eds::number::{Deviation, integer};
+use crate::eds::number::{Deviation, help, integer};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -31,7 +31,9 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         if !is_small {
             let message =
                 format!("found `{}`, expected a number of 0 to 255 as `{key}`", shorten(value.value));
-            diagnostics.push(Diagnostic::new(CODE, value.span, message).help("write a whole number"));
+            diagnostics.push(
+                Diagnostic::new(CODE, value.span, message).help(help(value.value, "write a whole number")),
+            );
         }
     }
 }

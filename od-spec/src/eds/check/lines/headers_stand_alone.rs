@@ -25,21 +25,19 @@ const CODE: &Code = &Code {
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
     for line in view.document.lines().iter().filter(|line| line.kind() == LineKind::Header) {
+        let Some((end, words)) = line.after_name() else { continue };
         let text = line.text();
-        let Some(end) = text.find(']').map(|at| at + 1) else { continue };
-        let rest = text[end..].trim();
-        if rest.is_empty() {
-            continue;
-        }
         let place = edits::place(view, line).part(end, text.len());
-        let words = rest.trim_start_matches([';', '#']).trim();
         let comment = (!words.is_empty()).then(|| edits::above(view, line, &format!("; {words}")));
         let cut = Edit { span: place, text: String::new() };
         found.add(place, comment.into_iter().chain([cut]), || {
             Diagnostic::new(
                 CODE,
                 place,
-                format!("found `{}` behind the section's name, expected the end of the line", shorten(rest)),
+                format!(
+                    "found `{}` behind the section's name, expected the end of the line",
+                    shorten(text[end..].trim())
+                ),
             )
             .help("make it a comment on a line of its own; `odgen fix` does")
         });

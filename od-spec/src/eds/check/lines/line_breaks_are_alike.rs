@@ -31,13 +31,22 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         if line.end() == usual || line.end() == LineEnd::EndOfText {
             continue;
         }
-        let place = edits::place(view, line);
+        let (whole, number) = (edits::place(view, line), line.number());
         let length = u32::try_from(line.end().text().len()).unwrap_or_default();
-        let span = Span { start: place.end, end: place.end + length, ..place };
-        found.add(place, [Edit { span, text: usual.text().to_owned() }], || {
-            let message = format!("the line ends with {}, most end with {}", name(line.end()), name(usual));
-            Diagnostic::new(CODE, place, message).help("end all lines alike; `odgen fix` does")
-        });
+        // Empty lines that follow each other have nothing but their breaks.
+        let (place, start) = match number {
+            1 => (whole, whole.end),
+            _ => (Span { end: whole.start, ..whole }, whole.start),
+        };
+        let span = Span { start, end: whole.end + length, ..whole };
+        let mut edit = Some(Edit { span, text: usual.text().repeat(number) });
+        for _ in 0..number {
+            found.add(place, edit.take(), || {
+                let message =
+                    format!("the line ends with {}, most end with {}", name(line.end()), name(usual));
+                Diagnostic::new(CODE, place, message).help("end all lines alike; `odgen fix` does")
+            });
+        }
     }
     found.finish("lines", diagnostics);
 }

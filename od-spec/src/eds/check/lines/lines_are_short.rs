@@ -27,7 +27,8 @@ const LONGEST: usize = 255;
 
 fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
-    for line in view.document.lines().iter().filter(|line| line.text().len() > LONGEST) {
+    for line in view.document.lines().iter().filter(|line| line.text().len() > LONGEST && line.number() == 1)
+    {
         let length = line.text().chars().count();
         let Some(key) = (length > LONGEST).then(|| line.key()) else { continue };
         let place = edits::place(view, line);

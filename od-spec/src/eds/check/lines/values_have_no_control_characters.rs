@@ -22,8 +22,8 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
     for line in view.document.lines() {
         let Some(at) = line.text().bytes().position(is_control) else { continue };
-        // The DOS end-of-file sign behind the text hurts nobody.
-        if line.text().trim_start_matches('\u{1A}').is_empty() {
+        // The breaks between empty lines; and the DOS end-of-file sign behind the text hurts nobody.
+        if line.number() > 1 || line.text().trim_start_matches('\u{1A}').is_empty() {
             continue;
         }
         let place = edits::place(view, line).part(at, at + 1);

@@ -4,7 +4,7 @@ use super::super::numbered;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
 use crate::eds::names::{ModuleTopic, Topic};
-use crate::eds::number::integer;
+use crate::eds::number::{help, integer};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -51,7 +51,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                     if value.value.is_empty() { entry.key.span } else { value.span },
                     message,
                 )
-                .help("write the index of an object")
+                .help(help(value.value, "write the index of an object"))
             });
         }
     }

@@ -5,7 +5,6 @@ use super::super::numbered::Numbers;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
 use crate::eds::view::View;
-use std::collections::BTreeSet;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 
@@ -36,7 +35,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         let message = format!("found `{}`, expected `{prefix}{at}`", shorten(entry.key.value));
         let mut diagnostic = Diagnostic::new(CODE, entry.key.span, message)
             .help("number the entries 1, 2, 3 and so on; `odgen fix` does");
-        diagnostic.edits = list.rewritten(view, &BTreeSet::new(), &[]);
+        diagnostic.edits = list.rewritten(view, &list.repeated(), &[]);
         diagnostics.push(diagnostic);
     }
 }

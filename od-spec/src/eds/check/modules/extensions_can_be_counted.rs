@@ -3,7 +3,7 @@
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
 use crate::eds::names::ModuleTopic;
-use crate::eds::number::lenient_integer;
+use crate::eds::number::{help, lenient_integer};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -41,7 +41,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                     count.span,
                     format!("found `{}`, expected a number of sub-indices", shorten(count.value)),
                 )
-                .help("write a number of 0 to 255, or `0;` and a number of bits"),
+                .help(help(count.value, "write a number of 0 to 255, or `0;` and a number of bits")),
             ),
             Some(_) => {}
         }
@@ -52,7 +52,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                     extend.span,
                     format!("found `{}`, expected the highest sub-index", shorten(extend.value)),
                 )
-                .help("write a number of 0 to 255"),
+                .help(help(extend.value, "write a number of 0 to 255")),
             );
         }
     }

@@ -3,7 +3,7 @@
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, shorten};
 use crate::eds::names::{ModuleTopic, Topic};
-use crate::eds::number::lenient_integer;
+use crate::eds::number::{help, lenient_integer};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -39,7 +39,8 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let Some(declared) = declared else {
         if let Some(value) = value {
             let message = format!("found `{}`, expected the number of modules", shorten(value.value));
-            diagnostics.push(Diagnostic::new(CODE, value.span, message).help("write a number"));
+            diagnostics
+                .push(Diagnostic::new(CODE, value.span, message).help(help(value.value, "write a number")));
         }
         return;
     };

@@ -3,8 +3,10 @@
 use super::super::keys;
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
+use crate::eds::coded;
 use crate::eds::number::lenient_integer;
 use crate::eds::view::View;
+use crate::model::Access;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 
@@ -27,7 +29,8 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
     for (_, part) in view.topics().filter(|(topic, _)| keys::is_of_object(*topic)) {
         let is_mapped = part.value("PDOMapping").and_then(|value| lenient_integer(value.value)) == Some(1);
-        let access = part.value("AccessType").filter(|access| access.value.eq_ignore_ascii_case("rw"));
+        let access =
+            part.value("AccessType").filter(|access| coded::access(access.value) == Some(Access::Rw));
         let Some(access) = access.filter(|_| is_mapped) else { continue };
         found.add(access.span, [], || {
             Diagnostic::new(

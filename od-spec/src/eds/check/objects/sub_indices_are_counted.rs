@@ -3,7 +3,7 @@
 use super::super::edits;
 use super::super::object_form::{Form, described, form, number};
 use super::super::rule::FormatRule;
-use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity};
 use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
@@ -34,16 +34,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             continue;
         }
         let count = described(object);
-        let entry = part.key("SubNumber");
-        let edit = match (entry, part.sections.first()) {
-            _ if count == 0 => None,
-            (Some(entry), _) => Some(Edit { span: entry.value.span, text: count.to_string() }),
-            (None, Some(section)) => {
-                let line = format!("SubNumber={count}");
-                Some(edits::below(view, edits::last_line(section), [line.as_str()]))
-            }
-            (None, None) => None,
-        };
+        let edit = (count > 0).then(|| edits::set(view, part, "SubNumber", &count.to_string())).flatten();
         found.add(part.place(), edit, || {
             if count == 0 {
                 let message = format!("{index} is an ARRAY or RECORD and has no sub-indices");

@@ -4,11 +4,11 @@ use crate::diag::Edit;
 use crate::eds::document::SectionRef;
 use crate::eds::line::{Line, LineEnd, LineKind};
 use crate::eds::names::{self, Topic};
-use crate::eds::view::View;
+use crate::eds::view::{Part, View};
 use crate::source::Span;
 
 /// The place of a line.
-pub(super) fn place(view: &View<'_>, line: &Line<'_>) -> Span {
+pub(in crate::eds) fn place(view: &View<'_>, line: &Line<'_>) -> Span {
     view.document.place(line).unwrap_or(Span { file: view.file, start: 0, end: 0 })
 }
 
@@ -19,13 +19,29 @@ fn with_break(view: &View<'_>, line: &Line<'_>) -> Span {
     Span { end: place.end + length, ..place }
 }
 
-/// Takes a line out.
-pub(super) fn remove(view: &View<'_>, line: &Line<'_>) -> Edit {
-    Edit { span: with_break(view, line), text: String::new() }
+/// Takes a line out. Below a comment an empty line stays: the comment would be taken for one of the section that follows.
+pub(in crate::eds) fn remove(view: &View<'_>, line: &Line<'_>) -> Edit {
+    let lines = view.document.lines();
+    let above = lines[..lines.partition_point(|other| other.start() < line.start())].last();
+    let is_below_comment = above.is_some_and(|above| above.kind() == LineKind::Comment);
+    let span = if is_below_comment { place(view, line) } else { with_break(view, line) };
+    Edit { span, text: String::new() }
+}
+
+/// Gives a key of a section its value, on a line of its own where the section does not have the key.
+pub(in crate::eds) fn set(view: &View<'_>, part: &Part<'_>, key: &str, value: &str) -> Option<Edit> {
+    if let Some(entry) = part.key(key) {
+        return Some(Edit { span: entry.value.span, text: value.to_owned() });
+    }
+    Some(below(view, last_line(part.sections.first()?), [format!("{key}={value}").as_str()]))
 }
 
 /// Puts lines below a line, with its break.
-pub(super) fn below<'l>(view: &View<'_>, line: &Line<'_>, lines: impl IntoIterator<Item = &'l str>) -> Edit {
+pub(in crate::eds) fn below<'l>(
+    view: &View<'_>,
+    line: &Line<'_>,
+    lines: impl IntoIterator<Item = &'l str>,
+) -> Edit {
     let end = with_break(view, line).end;
     let span = Span { file: view.file, start: end, end };
     let is_last = line.end() == LineEnd::EndOfText;
@@ -44,7 +60,7 @@ pub(super) fn below<'l>(view: &View<'_>, line: &Line<'_>, lines: impl IntoIterat
 }
 
 /// Puts lines above a line, with its break.
-pub(super) fn above(view: &View<'_>, line: &Line<'_>, text: &str) -> Edit {
+pub(in crate::eds) fn above(view: &View<'_>, line: &Line<'_>, text: &str) -> Edit {
     let start = place(view, line).start;
     let line_break =
         if line.end() == LineEnd::EndOfText { usual_break(view).text() } else { line.end().text() };
@@ -52,25 +68,26 @@ pub(super) fn above(view: &View<'_>, line: &Line<'_>, text: &str) -> Edit {
 }
 
 /// A number in the notation in which another one stands.
-pub(super) fn number_like(old: &str, number: impl Into<i128>) -> String {
+pub(in crate::eds) fn number_like(old: &str, number: impl Into<i128>) -> String {
     let number = number.into();
     if old.starts_with("0x") { format!("{number:#X}").replacen("0X", "0x", 1) } else { number.to_string() }
 }
 
 /// The line break that most lines have, that of the standard's examples where it is undecided.
-pub(super) fn usual_break(view: &View<'_>) -> LineEnd {
-    let count = |end| view.document.lines().iter().filter(|line| line.end() == end).count();
+pub(in crate::eds) fn usual_break(view: &View<'_>) -> LineEnd {
+    let of_end = |end| view.document.lines().iter().filter(move |line| line.end() == end);
+    let count = |end| of_end(end).map(Line::number).sum::<usize>();
     if count(LineEnd::Lf) > count(LineEnd::CrLf) { LineEnd::Lf } else { LineEnd::CrLf }
 }
 
 /// The last line of a section that says something: its last key, or its header.
-pub(super) fn last_line<'d>(section: &SectionRef<'d, 'd>) -> &'d Line<'d> {
+pub(in crate::eds) fn last_line<'d>(section: &SectionRef<'d, 'd>) -> &'d Line<'d> {
     let says = |line: &&Line<'_>| !matches!(line.kind(), LineKind::Blank | LineKind::Comment);
     section.body().iter().rev().find(says).unwrap_or_else(|| section.header())
 }
 
 /// Adds a section at its place in the classical order: behind the last section that comes before it.
-pub(super) fn new_section<'l>(
+pub(in crate::eds) fn new_section<'l>(
     view: &View<'_>,
     topic: Topic,
     lines: impl IntoIterator<Item = &'l str>,
