@@ -90,12 +90,11 @@ pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result
             return Ok(sources.add_decoded(name, text, encoding));
         }
         // Where the name says nothing, the text does; what is UTF-8 needs no look at it yet.
-        if std::str::from_utf8(&bytes).is_err() {
-            if let Ok((text, encoding)) = encoding::decode(bytes.clone())
-                && (eds::is_eds(name, &text) || xdd::is_xdd(name, &text))
-            {
-                return Ok(sources.add_decoded(name, text, encoding));
-            }
+        if std::str::from_utf8(&bytes).is_err()
+            && let Ok((text, encoding)) = encoding::decode(bytes.clone())
+            && (eds::is_eds(name, &text) || xdd::is_xdd(name, &text))
+        {
+            return Ok(sources.add_decoded(name, text, encoding));
         }
     }
     Ok(sources.add(name, read_text(name, bytes)?))

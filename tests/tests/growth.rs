@@ -154,7 +154,7 @@ fn line_breaks_take_little_memory() {
 #[test]
 fn attributes_of_an_element_have_a_limit() {
     let file = |number: usize| {
-        let more = (0..number).map(|at| format!(" a{at}='>\"'")).collect::<String>();
+        let more = (0..number).map(|at| format!(" a{at}='>\"'")).collect::<Vec<_>>().concat();
         format!(
             "<?xml version=\"1.0\"?><!-- <a '> --><x><CANopenObjectList><![CDATA[<b \"]]>\n<CANopenObject{more} index=\"2000\" name=\"level\" \
              objectType=\"7\" dataType=\"0005\" accessType=\"ro\"/></CANopenObjectList></x>"

@@ -48,6 +48,7 @@ pub fn name_in_ascii(name: &str, otherwise: impl FnOnce() -> String) -> Cow<'_, 
     if has_no_form(name) { Cow::Owned(otherwise()) } else { in_ascii(name) }
 }
 
+#[expect(clippy::too_many_lines, reason = "a table with a row for each letter")]
 const fn transcription(c: char) -> &'static str {
     match c {
         'ä' => "ae",

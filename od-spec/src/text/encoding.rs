@@ -174,10 +174,13 @@ fn is_cyrillic(bytes: &[u8]) -> bool {
     letters > 0 && in_runs * 4 >= letters * 3 && small * 2 > letters
 }
 
+/// Whether two bytes make a character.
+type IsPair = fn(u8, u8) -> bool;
+
 /// The code page in which two bytes make a character, if the text has words of it: characters side by side.
 fn in_pairs(bytes: &[u8]) -> Option<Unread> {
     // Each ends where it is none of the code page; a Western text does so soon, or has each pair alone between ASCII.
-    let are_words = |is_pair: fn(u8, u8) -> bool| {
+    let are_words = |is_pair: IsPair| {
         let (mut pairs, mut side_by_side, mut at) = (0_usize, 0_usize, 0);
         let mut before = false;
         while let Some(first) = bytes.get(at) {
@@ -202,7 +205,7 @@ fn in_pairs(bytes: &[u8]) -> Option<Unread> {
         matches!(first, 0x81..=0x9F | 0xE0..=0xEF) && matches!(second, 0x40..=0x7E | 0x80..=0xFC)
     };
     let gbk = |first, second| matches!(first, 0x81..=0xFE) && matches!(second, 0x40..=0x7E | 0x80..=0xFE);
-    let pages: [(fn(u8, u8) -> bool, Unread); 3] =
+    let pages: [(IsPair, Unread); 3] =
         [(gb2312, Unread::Gbk), (shift_jis, Unread::ShiftJis), (gbk, Unread::Gbk)];
     pages.into_iter().find(|(is_pair, _)| are_words(*is_pair)).map(|(_, page)| page)
 }

@@ -164,6 +164,9 @@ fn channels(document: &mut Document<'static>, tree: Tree<'_>) {
     keys.add("NrOfSeg", Some(Spanned::new(number.to_string(), place)));
 }
 
+/// Whether the text of an attribute is what it has to be.
+type IsRight<'a> = &'a dyn Fn(&str) -> bool;
+
 fn commissioning(document: &mut Document<'static>, tree: Tree<'_>, diagnostics: &mut Diagnostics) {
     let Some(node) = tree.first("deviceCommissioning") else { return };
     document.push_header("DeviceComissioning", tree.place(node), &[]);
@@ -186,7 +189,7 @@ fn commissioning(document: &mut Document<'static>, tree: Tree<'_>, diagnostics: 
     let is_node_id = |text: &str| is_number(text, |id| matches!(id, 1..=127 | 255));
     let is_network = |text: &str| is_number(text, |number| u32::try_from(*number).is_ok());
     let is_rate = |text: &str| kbit(text).is_some();
-    let expected: [(_, &dyn Fn(&str) -> bool, _, _); 3] = [
+    let expected: [(_, IsRight<'_>, _, _); 3] = [
         ("NodeID", &is_node_id, "a node-ID", "node-IDs are 1 to 127"),
         ("actualBaudRate", &is_rate, "a bit rate", "write it in kbit/s, such as `250 Kbps`"),
         ("networkNumber", &is_network, "a number", "write the number of the network"),

@@ -1,7 +1,5 @@
 //! Files that do not say how their characters are stored are read in the code page in which they make words.
 
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use od_spec::encoding::{Encoding, Unread, as_likely, decode, encode};
 
 /// The words of the list that a code page has, without those of other alphabets.

@@ -162,10 +162,10 @@ fn other_line(one: &str, other: &str) -> Option<String> {
 }
 
 fn fixing(name: &str, bytes: &[u8], checked: &mut Checked) -> Result<(), String> {
-    let fixed = fix(name, bytes).unwrap();
+    let fixed = fix(name, bytes).map_err(|refused| first_line(&refused))?;
     checked.changes = fixed.changes.len();
     let put_right = fixed.to_bytes();
-    let again = fix(name, &put_right).unwrap();
+    let again = fix(name, &put_right).map_err(|refused| first_line(&refused))?;
     if !again.changes.is_empty() || again.to_bytes() != put_right {
         let codes: Vec<&str> = again.counts().into_keys().map(|code| code.id).collect();
         checked.problem(Step::Fixing, format!("a second time changes more: {}", codes.join(", ")));

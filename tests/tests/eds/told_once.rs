@@ -140,7 +140,7 @@ fn what_a_file_does_not_say_disagrees_with_nothing() {
     };
     let without = |key: &str| {
         let lines = HEAD.lines().filter(|line| !line.starts_with(key));
-        lines.map(|line| format!("{line}\n")).collect::<String>()
+        lines.map(|line| format!("{line}\n")).collect::<Vec<_>>().concat()
     };
     for key in ["VendorNumber", "ProductNumber", "RevisionNumber"] {
         let with = said("lamp.eds", &(HEAD.to_owned() + &identity("8", "6", "1")));

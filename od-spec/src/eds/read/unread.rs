@@ -3,7 +3,7 @@
 use crate::diag::{Diagnostics, Repeated};
 use crate::eds::codes;
 use crate::eds::number::lenient_integer;
-use crate::eds::view::View;
+use crate::eds::view::{Part, View};
 
 use super::without_place;
 
@@ -23,7 +23,7 @@ const UNREAD: [&str; 9] = [
 /// Tells of each that says something, once for all its places.
 pub(super) fn tell(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = UNREAD.map(|key| (key, Repeated::new()));
-    for entry in view.parts().flat_map(|part| part.entries()) {
+    for entry in view.parts().flat_map(Part::entries) {
         let says_nothing = entry.value.value.is_empty() || lenient_integer(entry.value.value) == Some(0);
         let is_key = |(key, _): &&mut (&str, Repeated)| entry.key.value.eq_ignore_ascii_case(key);
         if says_nothing {
