@@ -125,7 +125,8 @@ fn lines_may_end_in_two_characters_and_hold_wide_ones() {
     assert_eq!(answer["capabilities"]["positionEncoding"], "utf-8");
     client.open("lamp.od.yaml", &text.replace("{name: br", "{name: 🌀br"));
     let said = client.diagnostics("lamp.od.yaml", 1);
-    assert_eq!(said.iter().map(short).collect::<Vec<_>>()[1..], ["OD0401 8:94-8:96"]);
+    // The first is about the name.
+    assert_eq!(short(&said[1]), "OD0401 8:94-8:96");
     assert_eq!(client.leave(), 0);
 }
 

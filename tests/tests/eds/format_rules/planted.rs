@@ -246,7 +246,7 @@ fn a_planted_fault_is_found_at_its_line_and_mended() {
     let clean = std::fs::read_to_string(root().join("generated/eds").join(name)).unwrap();
     let said_before = facts(&clean);
     let mut wrong = Vec::new();
-    for fault in LINES.iter().chain(INFORMATION).chain(LISTS).chain(MEANING) {
+    for (number, fault) in LINES.iter().chain(INFORMATION).chain(LISTS).chain(MEANING).enumerate() {
         let what = format!("{} {:?}", fault.code, fault.new.chars().take(40).collect::<String>());
         assert!(clean.contains(fault.old), "{what}: the file holds no such text");
         let text = clean.replacen(fault.old, fault.new, 1);
@@ -271,7 +271,11 @@ fn a_planted_fault_is_found_at_its_line_and_mended() {
         if outcome != fault.outcome {
             wrong.push(format!("{what}: {outcome:?}, expected {:?}", fault.outcome));
         }
-        wrong.extend(difference(name, text.as_bytes(), &fixed).map(|differs| format!("{what}: {differs}")));
+        // Small files are compared for every rule; of this large one, some.
+        if number % 6 == 0 || od_tests::is_long() {
+            let differs = difference(name, text.as_bytes(), &fixed);
+            wrong.extend(differs.map(|differs| format!("{what}: {differs}")));
+        }
         let again = fix(name, &fixed.to_bytes()).unwrap();
         assert!(again.changes.is_empty(), "{what}: {:?}", again.changes);
     }
