@@ -104,7 +104,7 @@ fn has_words(text: &str, words: &str) -> bool {
     })
 }
 
-/// The keys whose markers stand in a page.
+/// The keys whose markers a page has.
 fn marked(page: &str) -> impl Iterator<Item = &str> {
     page.split('\u{ab}').skip(1).filter_map(|rest| Some(rest.split_once('\u{bb}')?.0))
 }

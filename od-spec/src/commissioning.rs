@@ -9,7 +9,6 @@ use crate::diag::{Diagnostic, codes};
 use crate::model::{
     Dictionary, EdsPolicy, Entry, EntryId, Index, NoSuchValue, SubIndex, System, Value, Write, download,
 };
-use crate::node_of_file::NodeOfFile;
 
 /// Values of single entries, by entry.
 pub type ParameterValues = BTreeMap<EntryId, Value>;
@@ -112,11 +111,6 @@ impl Commissioning {
             files: BTreeMap::new(),
             remarks: Vec::new(),
         }
-    }
-
-    /// The node `id` of a file: that of a DCF, or a node with the device's defaults.
-    pub fn of_file(file: Option<&NodeOfFile>, device: &Dictionary, id: u8) -> Self {
-        file.map_or_else(|| Self::of_node(device, id), |file| file.at(Some(id)))
     }
 
     /// Gives an object or entry a name in the application, if the device has it.

@@ -68,6 +68,11 @@ impl NodeOfFile {
         node
     }
 
+    /// The node of a file as node `id`, or a node with the defaults of its device where there is no such file.
+    pub fn or_defaults(file: Option<&Self>, device: &Dictionary, id: u8) -> Commissioning {
+        file.map_or_else(|| Commissioning::of_node(device, id), |file| file.at(Some(id)))
+    }
+
     /// Returns a warning about the COB-IDs of the file's node that a node with another node-ID still has.
     pub fn left_behind(&self, node: &Commissioning) -> Option<Diagnostic> {
         let origin = self.origin.filter(|origin| *origin != node.node)?;

@@ -9,6 +9,7 @@ use crate::check::{self, Rules};
 use crate::commissioning::Commissioning;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::{Constraint, Dictionary, Document, EntryId, Expr, System};
+use crate::node_of_file::NodeOfFile;
 use crate::parameters::{Assigned, Laid, Layer, SettingNames, lay_over};
 use crate::standard;
 
@@ -46,7 +47,7 @@ impl Plant {
         let around = surroundings(&device.system, &device.dictionary.key, others);
         check::configuration(rules, &around, &configured, class.own.node, &mut diagnostics);
         let mut commissioning =
-            Commissioning::of_file(device.base.as_deref(), &device.dictionary, class.own.node);
+            NodeOfFile::or_defaults(device.base.as_deref(), &device.dictionary, class.own.node);
         commissioning.bit_rate = class.own.bit_rate;
         commissioning.values.extend(assigned.values.clone());
         commissioning.unlocked.extend(assigned.unlocked.iter().copied());

@@ -43,7 +43,7 @@ pub fn has_no_form(name: &str) -> bool {
     has_lost(name) && in_ascii(name).chars().all(|c| matches!(c, '?' | ' '))
 }
 
-/// The name of an object or entry in ASCII; `otherwise` stands for one that has no form in it.
+/// The name of an object or entry in ASCII; `otherwise` replaces one that has no form in it.
 pub fn name_in_ascii(name: &str, otherwise: impl FnOnce() -> String) -> Cow<'_, str> {
     if has_no_form(name) { Cow::Owned(otherwise()) } else { in_ascii(name) }
 }

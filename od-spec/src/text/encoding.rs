@@ -67,7 +67,7 @@ impl Encoding {
     }
 
     /// The characters of bytes in a code page.
-    pub(super) fn characters(self, bytes: &[u8]) -> Vec<char> {
+    fn characters(self, bytes: &[u8]) -> Vec<char> {
         let upper: Vec<char> = self.upper_half().unwrap_or_default().chars().collect();
         let character = |byte: &u8| match byte.checked_sub(0x80) {
             Some(at) => upper.get(usize::from(at)).copied().unwrap_or(char::REPLACEMENT_CHARACTER),
@@ -138,9 +138,9 @@ pub fn decode(bytes: Vec<u8>) -> Result<(String, Encoding), Unread> {
 /// The Western code page that fits best.
 fn best(bytes: &[u8]) -> Encoding {
     let [first, rest @ ..] = WESTERN;
-    let mut best = (fit(bytes, first), first);
+    let mut best = (fit(&first.characters(bytes)), first);
     for page in rest {
-        let points = fit(bytes, page);
+        let points = fit(&page.characters(bytes));
         if points > best.0 {
             best = (points, page);
         }
@@ -154,9 +154,9 @@ pub fn as_likely(text: &str, encoding: Encoding) -> Option<Encoding> {
         return None;
     }
     let bytes = encode(text, encoding).ok()?;
-    let points = fit(&bytes, encoding);
+    let points = fit(&encoding.characters(&bytes));
     let differs = |page: &Encoding| !page.characters(&bytes).into_iter().eq(text.chars());
-    WESTERN.into_iter().find(|page| fit(&bytes, *page) == points && differs(page))
+    WESTERN.into_iter().find(|page| fit(&page.characters(&bytes)) == points && differs(page))
 }
 
 /// Whether the bytes that are not ASCII are Russian words: runs of letters of which most are small.

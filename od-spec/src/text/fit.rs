@@ -1,10 +1,7 @@
-//! How well a code page fits: whether its characters make words and units where they stand.
+//! How well a code page fits: whether its characters make words and units.
 
-use super::encoding::Encoding;
-
-/// How much speaks for a code page, against zero for a text in which each character could stand anywhere.
-pub(super) fn fit(bytes: &[u8], page: Encoding) -> i32 {
-    let text = page.characters(bytes);
+/// How much speaks for the code page that gives these characters, against zero for a text in which none makes a word or a unit.
+pub(super) fn fit(text: &[char]) -> i32 {
     let at = |position: Option<usize>| position.and_then(|position| text.get(position)).copied();
     let points = text.iter().enumerate().filter(|(_, c)| !c.is_ascii()).map(|(position, c)| {
         let around = Around {
@@ -18,7 +15,7 @@ pub(super) fn fit(bytes: &[u8], page: Encoding) -> i32 {
     points.sum()
 }
 
-/// What stands around a character.
+/// The characters around one.
 struct Around {
     second_before: Option<char>,
     before: Option<char>,
@@ -81,7 +78,7 @@ impl Around {
         let neighbours = i32::from(is_letter(self.before)) + i32::from(is_letter(self.after));
         let has_small_before = self.before.is_some_and(char::is_lowercase);
         let is_odd = match c {
-            // A long vowel stands before it: ei, ie, and any other than these two.
+            // A long vowel comes before it: `ei`, `ie`, or `a`, `o`, `u` and their umlauts.
             'ß' => !self.has_long_vowel_before(),
             // At the end of Italian words.
             'ì' => is_letter(self.after) || !self.before.is_some_and(|c| "dslr".contains(c)),
@@ -92,7 +89,7 @@ impl Around {
         let weight = match c {
             c if FREQUENT.contains(c) => 2,
             c if LESS_FREQUENT.contains(c) => 1,
-            // Letters of other scripts do not stand in the middle of these.
+            // Letters of other scripts are not in the middle of such words.
             _ => return if neighbours > 0 { -2 } else { 0 },
         };
         match neighbours {

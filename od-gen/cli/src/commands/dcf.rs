@@ -229,7 +229,7 @@ fn commissioning(
     node: Option<u8>,
     of_file: Option<&NodeOfFile>,
 ) -> Result<Commissioning, Diagnostic> {
-    node.map(|node| Commissioning::of_file(of_file, device, node)).ok_or_else(|| {
+    node.map(|node| NodeOfFile::or_defaults(of_file, device, node)).ok_or_else(|| {
         let message = match of_file {
             Some(_) => "no node-ID is given, and the DCF states none",
             None => "no node-ID is given",

@@ -170,7 +170,7 @@ fn configured(path: &Path, args: &DiffArgs, report: &Report) -> Result<Used, u8>
     let device = files.device(&used.system, args.device.as_deref(), report)?;
     files.check_device(&used.system, device, &mut diagnostics);
     let stated = used.node_id(files.node(None, report));
-    let mut node = Commissioning::of_file(used.node.as_ref(), device, stated.unwrap_or(1));
+    let mut node = NodeOfFile::or_defaults(used.node.as_ref(), device, stated.unwrap_or(1));
     files.settle(device, &mut node, &mut diagnostics);
     let layers = files.into_layers();
     let configured = node.configured(device);
