@@ -125,18 +125,15 @@ pub fn decode(bytes: Vec<u8>) -> Result<(String, Encoding), Unread> {
         }
         Err(error) => error.into_bytes(),
     };
-    let page = if is_cyrillic(&bytes) {
-        Encoding::Windows1251
-    } else if let Some(unread) = in_pairs(&bytes) {
-        return Err(unread);
-    } else {
-        best(&bytes)
-    };
+    let page = if is_cyrillic(&bytes) { Encoding::Windows1251 } else { western(&bytes)? };
     Ok((page.characters(&bytes).into_iter().collect(), page))
 }
 
 /// The Western code page that fits best.
-fn best(bytes: &[u8]) -> Encoding {
+///
+/// # Errors
+/// Hardly anything makes a word in it, and everything is a character of two bytes in another.
+fn western(bytes: &[u8]) -> Result<Encoding, Unread> {
     let [first, rest @ ..] = WESTERN;
     let mut best = (fit(&first.characters(bytes)), first);
     for page in rest {
@@ -145,7 +142,13 @@ fn best(bytes: &[u8]) -> Encoding {
             best = (points, page);
         }
     }
-    best.1
+    let (points, page) = best;
+    let letters = i64::try_from(bytes.iter().filter(|byte| !byte.is_ascii()).count()).unwrap_or(i64::MAX);
+    // A letter within a word makes 3 or 4, a sign of a unit 5.
+    if i64::from(points) >= letters * 3 {
+        return Ok(page);
+    }
+    in_pairs(bytes).map_or(Ok(page), Err)
 }
 
 /// Another code page that as much speaks for as for the one in which a text is stored.

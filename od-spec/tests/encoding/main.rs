@@ -20,9 +20,10 @@ fn each_word_alone_shows_its_code_page() {
         assert!(words.len() > 400, "{} words in {page}", words.len());
         let wrong: Vec<String> = words
             .into_iter()
-            .filter_map(|(word, bytes)| {
-                let (read, found) = decode(bytes).ok()?;
-                (read != word).then(|| format!("{word} in {page} is read as {read} in {found}"))
+            .filter_map(|(word, bytes)| match decode(bytes) {
+                Ok((read, _)) if read == word => None,
+                Ok((read, found)) => Some(format!("{word} in {page} is read as {read} in {found}")),
+                Err(unread) => Some(format!("{word} in {page} is taken as {}", unread.name())),
             })
             .collect();
         assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
@@ -57,20 +58,45 @@ fn russian_words_are_read() {
     }
 }
 
+/// Names of objects as Chinese systems store them: temperature, speed, actual position, motor speed, and so on.
+const GBK: [&[u8]; 12] = [
+    b"\xCE\xC2\xB6\xC8",
+    b"\xCB\xD9\xB6\xC8",
+    b"\xCA\xB5\xBC\xCA\xCE\xBB\xD6\xC3",
+    b"\xB5\xE7\xBB\xFA\xD7\xAA\xCB\xD9",
+    b"\xC4\xB8\xCF\xDF\xB5\xE7\xD1\xB9",
+    b"\xB9\xCA\xD5\xCF\xB4\xFA\xC2\xEB",
+    b"\xBC\xD3\xCB\xD9\xB6\xC8",
+    b"\xBF\xD8\xD6\xC6\xD7\xD6",
+    b"\xD7\xB4\xCC\xAC\xD7\xD6",
+    b"\xB6\xEE\xB6\xA8\xB5\xE7\xC1\xF7",
+    b"\xB3\xA7\xC9\xCC",
+    b"\xC9\xE8\xB1\xB8\xC0\xE0\xD0\xCD",
+];
+/// The same as Japanese systems store them.
+const SHIFT_JIS: [&[u8]; 11] = [
+    b"\x89\xB7\x93\x78",
+    b"\x91\xAC\x93\x78",
+    b"\x8C\xBB\x8D\xDD\x88\xCA\x92\x75",
+    b"\x83\x82\x81\x5B\x83\x5E\x91\xAC\x93\x78",
+    b"\x93\x64\x88\xB3",
+    b"\x83\x47\x83\x89\x81\x5B",
+    b"\x89\xC1\x91\xAC\x93\x78",
+    b"\x90\xA7\x8C\xE4",
+    b"\x8F\xF3\x91\xD4",
+    b"\x92\xE8\x8A\x69\x93\x64\x97\xAC",
+    b"\x83\x67\x83\x8B\x83\x4E",
+];
+
 #[test]
 fn a_code_page_with_two_bytes_a_character_is_named() {
-    // "temperature", "speed", "actual position" as they are stored on Chinese and Japanese systems.
-    let gbk: [&[u8]; 2] = [
-        b"[2000]\nParameterName=\xCE\xC2\xB6\xC8\n",
-        b"a=\xCB\xD9\xB6\xC8\nb=\xCA\xB5\xBC\xCA\xCE\xBB\xD6\xC3\n",
-    ];
-    for bytes in gbk {
-        assert_eq!(decode(bytes.to_vec()), Err(Unread::Gbk));
-    }
-    let shift_jis: [&[u8]; 2] =
-        [b"[2000]\nParameterName=\x89\xB7\x93x\n", b"a=\x91\xAC\x93x\nb=\x8C\xBB\x8D\xDD\x88\xCA\x92u\n"];
-    for bytes in shift_jis {
-        assert_eq!(decode(bytes.to_vec()), Err(Unread::ShiftJis));
+    for (names, page) in [(&GBK[..], Unread::Gbk), (&SHIFT_JIS, Unread::ShiftJis)] {
+        for name in names {
+            let text = [b"[2000]\nParameterName=", *name, b"\nDataType=5\n"].concat();
+            assert_eq!(decode(text), Err(page), "{name:?}");
+        }
+        let all = names.iter().flat_map(|name| [b"\nParameterName=", *name].concat()).collect();
+        assert_eq!(decode(all), Err(page));
     }
 }
 
