@@ -117,7 +117,7 @@ fn properties(device: &Dictionary) -> Vec<(Place, String)> {
             Some((Owner::Entry(id), notes.of_entry(entry.sub)?))
         });
         for (owner, (property, value)) in of_object.chain(of_entries) {
-            texts.extend(place(device, owner).map(|place| (place, format!("{}={value}", property.key()))));
+            texts.extend(place(device, owner).map(|place| (place, format!("{}={value}", property.name()))));
         }
     }
     texts
@@ -130,9 +130,10 @@ fn is_said_by_stored(device: &Dictionary, place: Place, text: &str) -> bool {
     let group = object.editor.as_ref().and_then(|notes| notes.storage_group.as_deref());
     let is_of_standard =
         |group: &&str| matches!(Storage::of_group(group), Storage::Communication | Storage::Application);
+    let names = [EditorProperty::StorageGroup.key(), EditorProperty::StorageGroup.name()];
     group
         .filter(is_of_standard)
-        .is_some_and(|group| text == format!("{}={group}", EditorProperty::StorageGroup.key()))
+        .is_some_and(|group| names.into_iter().any(|name| text == format!("{name}={group}")))
 }
 
 /// What stands at most of the entries, such as a maker's key that always has the same value, and at how many: it is said once.

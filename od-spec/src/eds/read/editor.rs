@@ -12,6 +12,7 @@ use crate::eds::{codes, editor};
 use crate::model::{Access, DataType, EditorNotes, EditorProperty, PdoMapping, Storage, SubIndex};
 use crate::notation::words::yes_no;
 use crate::source::{Span, Spanned};
+use crate::wording::FileFormat;
 
 /// The group of what nothing stores.
 const USUAL_GROUP: &str = "RAM";
@@ -71,8 +72,11 @@ impl Properties {
             let Some((property, text)) = editor::property(line) else { continue };
             let value = Spanned::new(text, place.unwrap_or_else(|| part.place()));
             if !text.is_empty() && !self.property(sub, property, value) {
-                let message =
-                    format!("`{}` cannot be understood; it is left out", shorten(line.text().trim()));
+                let found = match context.format {
+                    FileFormat::Xdd => format!("{}={text}", property.name()),
+                    FileFormat::Eds => line.text().trim().to_owned(),
+                };
+                let message = format!("`{}` cannot be understood; it is left out", shorten(&found));
                 context.push(without_place(codes::NO_PLACE, value.span, message));
             }
         }
