@@ -98,9 +98,12 @@ fn what_is_switched_off_is_left_out_or_taken_by_every_command() {
     let told = stderr(&run(&["check", "kiln.xdd"]));
     assert!(told.contains("warning[XDD208]: 1 object is switched off and left out: 2001h\n"), "{told}");
     for arguments in [&["dump", "kiln.xdd"][..], &["dcf", "kiln.xdd", "--node", "3"]] {
-        let without = stdout(&run(arguments));
+        let made = |more: &[&str]| {
+            let printed = stdout(&run(&[arguments, more].concat()));
+            printed + &fs::read_to_string(scratch.0.join("kiln-3.dcf")).unwrap_or_default()
+        };
+        let (without, with) = (made(&[]), made(&["--disabled"]));
         assert!(without.contains("curve") && !without.contains("spare"), "{arguments:?}: {without}");
-        let with = stdout(&run(&[arguments, &["--disabled"]].concat()));
         assert!(with.contains("spare"), "{arguments:?}: {with}");
     }
     let told = stderr(&run(&["check", "kiln.xdd", "--disabled"]));

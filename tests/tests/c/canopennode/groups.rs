@@ -6,6 +6,7 @@ use crate::canopennode::project::of_text;
 const KILN: &str = "[DeviceInfo]\nProductName=Kiln\n\n\
     [1000]\nParameterName=device type\nObjectType=0x7\n;StorageLocation=PERSIST_COMM\nDataType=0x0007\nAccessType=ro\n\
     DefaultValue=0\nPDOMapping=0\n\n\
+    [1001]\nParameterName=error register\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n\n\
     [1017]\nParameterName=heartbeat\nObjectType=0x7\n;StorageLocation=PERSIST_COMM\nDataType=0x0006\nAccessType=rw\n\
     DefaultValue=1000\nPDOMapping=0\n\n\
     [2000]\nParameterName=curve\nObjectType=0x8\n;StorageLocation=PERSIST_OVEN\nSubNumber=2\n\n\
