@@ -39,6 +39,6 @@ fn groups_counters_and_attributes_are_those_of_the_file() {
         "{header}"
     );
     assert!(header.contains("#define OD_CNT_DOOR 1\n"), "{header}");
-    assert!(code.contains(".attributeElement = ODA_SDO_RW | ODA_TRPDO | ODA_TRSRDO | ODA_MB,"), "{code}");
+    assert!(code.contains(".attribute = ODA_SDO_RW | ODA_TRPDO | ODA_TRSRDO | ODA_MB,"), "{code}");
     project.run("list_entries.c", &[]);
 }
