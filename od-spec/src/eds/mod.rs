@@ -11,7 +11,6 @@ pub(crate) mod dates;
 mod document;
 mod edits;
 pub(crate) mod example;
-mod extras;
 mod line;
 pub(crate) mod names;
 pub(crate) mod number;
@@ -49,6 +48,5 @@ pub(crate) fn ends_with(name: &str, extension: &str) -> bool {
 
 pub use dates::{date_text, time_text};
 pub use document::{Document, Section, SectionRef};
-pub use extras::Extra;
 pub use line::{Line, LineEnd, LineKind};
-pub use owner::{GENERATED, MARK, Owner, Remark};
+pub use owner::{GENERATED, MARK, Owner, Remark, owner};

@@ -116,7 +116,10 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
             continue;
         }
         let stem = &stem(path);
-        summary.extend(devices.into_iter().map(describe));
+        summary.extend(devices.iter().copied().map(describe));
+        if args.xdd {
+            devices.into_iter().for_each(|device| report.not_in_xdd(device));
+        }
         let node = used.node_id(node);
         if node.is_none() && used.node.is_some() {
             report.note(&format!(

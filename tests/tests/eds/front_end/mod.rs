@@ -4,7 +4,9 @@
 
 mod channels;
 mod conditions;
+mod kept;
 mod links;
+mod modules;
 mod node;
 mod own_files;
 mod random;
