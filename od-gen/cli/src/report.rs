@@ -158,12 +158,20 @@ impl Report {
         }
     }
 
-    /// Tells what an XDD of a device does without.
-    pub(crate) fn not_in_xdd(&self, device: &Dictionary) {
-        let Some(further) = device.further.as_ref().filter(|further| further.count() > 0) else { return };
-        let (keys, modules) = (further.count(), further.modules.len());
+    /// Tells what an XDD of a device, or an XDC of a node, does without.
+    pub(crate) fn not_in_xdd(&self, device: &Dictionary, node: Option<&Commissioning>) {
+        let further = device.further.as_ref();
+        let (keys, modules) = further.map_or((0, 0), |further| (further.count(), further.modules.len()));
+        let of_node = node.map_or(0, |node| {
+            let texts = [&node.reference, &node.net_reference].into_iter().filter(|text| !text.is_empty());
+            node.references.len() + texts.count()
+        });
+        let keys = keys + of_node;
+        if keys == 0 {
+            return;
+        }
         let modules =
-            if modules == 0 { String::new() } else { format!(", with all of its {modules} modules") };
+            if modules == 0 { String::new() } else { format!(", with all of its {modules} modules,") };
         self.note(&format!(
             "`{}`: {keys} keys of the file{modules} are in no XDD or XDC, which have no place for them",
             device.key

@@ -117,9 +117,6 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         }
         let stem = &stem(path);
         summary.extend(devices.iter().copied().map(describe));
-        if args.xdd {
-            devices.into_iter().for_each(|device| report.not_in_xdd(device));
-        }
         let node = used.node_id(node);
         if node.is_none() && used.node.is_some() {
             report.note(&format!(
@@ -128,6 +125,9 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
             ));
         }
         let configured = used.node.as_ref().map(|of_file| report.moved(of_file, node, sources));
+        if args.xdd {
+            devices.into_iter().for_each(|device| report.not_in_xdd(device, configured.as_ref()));
+        }
         let selection =
             Selection { devices: &args.device, node, configured: configured.as_ref(), xdd: args.xdd };
         set.extend(artifacts(system, stem, &selection));

@@ -174,7 +174,7 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
         further = line;
     }
     if args.xdc {
-        report.not_in_xdd(device);
+        report.not_in_xdd(device, Some(&commissioning));
         let path = path.with_extension("xdc");
         let name = file_name(&path, "the DCF", &read).map_err(refuse)?;
         let bytes = write_xdc(&system, device, &commissioning, &name);

@@ -110,14 +110,17 @@ fn lost(name: &str, text: &str) -> Vec<String> {
 #[test]
 fn every_key_comes_out_again_or_a_message_is_about_it() {
     assert_eq!(lost("all.dcf", EVERYTHING), [""; 0]);
-    // Without a node, what belongs to one is told.
+    // Without a node, what belongs to one is told: the modules that are plugged in with the other settings.
     let commissioning = EVERYTHING.find("[DeviceComissioning]").unwrap();
     let end = EVERYTHING.find("[DynamicChannels]").unwrap();
     let eds = format!("{}{}", &EVERYTHING[..commissioning], &EVERYTHING[end..]);
-    assert_eq!(
-        lost("all.eds", &eds),
-        ["[connectedmodules] 1=1", "[connectedmodules] 2=1", "[connectedmodules] nrofentries=2"]
-    );
+    let of_a_dcf = [
+        "[connectedmodules] 1=1",
+        "[connectedmodules] 2=1",
+        "[connectedmodules] nrofentries=2",
+        "[fileinfo] lasteds=all.eds",
+    ];
+    assert_eq!(lost("all.eds", &eds), of_a_dcf);
 }
 
 #[test]
