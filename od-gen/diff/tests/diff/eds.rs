@@ -168,7 +168,7 @@ fn changed(find: &str, replace: &str) -> Vec<String> {
 fn files_differ_in_what_they_say_in_their_own_words() {
     for (find, replace, expected) in [
         ("Unit=\u{b0}C", "Unit=degC", ""),
-        ("SRDOMapping=1\n", "", "Object(2000h) SRDOMapping key: 1 -> - [behaviour]"),
+        ("SRDOMapping=1\n", "", "Object(Index(8192)) SRDOMapping key: 1 -> - [behaviour]"),
         (
             "CANopenSafetySupported=1",
             "CANopenSafetySupported=0",

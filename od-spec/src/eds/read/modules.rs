@@ -15,7 +15,7 @@ use crate::eds::codes;
 use crate::eds::names::{ModuleTopic, Topic};
 use crate::eds::number::lenient_integer;
 use crate::eds::view::{ObjectPart, Part, View};
-use crate::model::{Access, DataType, EntryId, Index, ObjectKind, Role, SubIndex};
+use crate::model::{Access, DataType, EntryId, Index, Mapped, ObjectKind, PdoTarget, Role, SubIndex};
 use crate::source::{Span, Spanned};
 
 /// The list of the modules that are plugged in (CiA 301).
@@ -69,6 +69,9 @@ pub(super) fn add(
                 extension.extend(section, &mut objects, &mut keys, context);
             }
         }
+    }
+    if !view.connected.is_empty() && !is_in_full {
+        objects.shorten_mappings();
     }
     keys
 }
@@ -153,6 +156,43 @@ impl<'a> Objects<'a> {
             let described = self.members(index).last().and_then(|(_, last)| last.name.as_ref());
             described.is_some_and(|described| described.value.starts_with(name))
         })
+    }
+
+    /// A bus coupler may map more than its modules bring: a mapping ends before the first entry that is not there, and its
+    /// sub-index 0 says so (CiA 306 6.5).
+    fn shorten_mappings(&mut self) {
+        let is_mapping = |index: &&Index| Role::of(**index) == Role::PdoMapping;
+        let mappings: Vec<Index> = self.positions.keys().filter(is_mapping).copied().collect();
+        for index in mappings {
+            let value = |entry: &EntryDecl| {
+                let default = entry.default.as_ref()?;
+                crate::scalar::integer(default.value.text()?).ok()
+            };
+            let count = self.get(index).and_then(|object| value(object.sub0.as_deref()?));
+            let targets: Vec<Option<Mapped>> = self
+                .members(index)
+                .iter()
+                .map(|(_, entry)| Mapped::from_parameter(u32::try_from(value(entry)?).ok()?))
+                .collect();
+            let is_there =
+                |mapped: Option<Mapped>, objects: &mut Self| match mapped.map(|mapped| mapped.target) {
+                    Some(PdoTarget::Entry(id)) => objects.has(id),
+                    Some(PdoTarget::Dummy(_)) | None => true,
+                };
+            let used = usize::try_from(count.unwrap_or(0)).unwrap_or(0);
+            let missing = targets.into_iter().take(used).position(|mapped| !is_there(mapped, self));
+            if let Some((missing, object)) = missing.zip(self.get(index))
+                && let Some(sub0) = &mut object.sub0
+            {
+                sub0.default = Some(DefaultDecl::one(made(missing.to_string(), sub0.span)));
+            }
+        }
+    }
+
+    /// Whether there is an entry.
+    fn has(&mut self, id: EntryId) -> bool {
+        id.sub.0 == 0 && self.get(id.index).is_some()
+            || self.members(id.index).iter().any(|(sub, _)| sub.value == id.sub)
     }
 
     fn push(&mut self, object: ObjectDecl) {

@@ -135,6 +135,33 @@ fn sub_indices_of_the_coupler_come_before_those_of_modules() {
     assert_eq!(of_coupler.name, "6000sub1");
 }
 
+/// What is mapped and not there ends a mapping.
+#[test]
+fn a_mapping_ends_before_what_no_module_brings() {
+    let more = coupler()
+        .replace(
+            "[1A00sub0]\nParameterName=1A00sub0\nObjectType=7\nDataType=5\nAccessType=rw\nDefaultValue=1",
+            "[1A00sub0]\nParameterName=1A00sub0\nObjectType=7\nDataType=5\nAccessType=rw\nDefaultValue=3",
+        )
+        .replace(
+            "[SupportedModules]",
+            &format!(
+                "{}{}[SupportedModules]",
+                entry("1A00sub2", 7, "rw", "0x60000208"),
+                entry("1A00sub3", 7, "rw", "0x60000308")
+            ),
+        );
+    let mapped = |modules: &[u32]| {
+        let whole = plugged(&more, modules).system.unwrap();
+        let device = &whole.devices[0];
+        (values(device, 0x1A00)[0], device.pdos[0].map.len())
+    };
+    assert_eq!(
+        [mapped(&[]), mapped(&[1]), mapped(&[2]), mapped(&[1, 2])],
+        [(Some(3), 3), (Some(2), 2), (Some(1), 1), (Some(3), 3)]
+    );
+}
+
 #[test]
 fn module_sections_come_out_as_they_went_in() {
     let (read, _) = compiled("coupler.eds", &coupler());
