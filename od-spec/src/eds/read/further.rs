@@ -171,8 +171,8 @@ fn comments(part: &Part<'_>) -> Vec<String> {
     let lines = part.entries().filter_map(|entry| {
         let (front, digits) = entry.key.value.split_at_checked(4)?;
         let number: u32 = digits.parse().ok()?;
-        (front.eq_ignore_ascii_case("Line") && !entry.value.value.is_empty())
-            .then(|| (number, entry.value.value))
+        let is_line = front.eq_ignore_ascii_case("Line") && !entry.value.value.is_empty();
+        is_line.then_some((number, entry.value.value))
     });
     let mut lines: Vec<(u32, &str)> = lines.collect();
     lines.sort_by_key(|(number, _)| *number);
