@@ -167,8 +167,9 @@ fn described(number: u32, module: &Module) -> String {
         |indices: &BTreeSet<Index>| indices.iter().map(Index::to_string).collect::<Vec<_>>().join(", ");
     let objects = [("brings", &module.brings), ("extends", &module.extends)];
     let objects = objects.into_iter().filter(|(_, indices)| !indices.is_empty());
-    let objects: String = objects.map(|(what, indices)| format!("; {what} {}", list(indices))).collect();
-    format!("module {number}: {} ({}){objects}", module.product_name, module.order_code)
+    let mut parts = vec![format!("module {number}: {} ({})", module.product_name, module.order_code)];
+    parts.extend(objects.map(|(what, indices)| format!("{what} {}", list(indices))));
+    parts.join("; ")
 }
 
 /// What a DCF says of its node.

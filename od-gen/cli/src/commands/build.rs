@@ -126,7 +126,9 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         }
         let configured = used.node.as_ref().map(|of_file| report.moved(of_file, node, sources));
         if args.xdd {
-            devices.into_iter().for_each(|device| report.not_in_xdd(device, configured.as_ref()));
+            for device in devices {
+                report.not_in_xdd(device, configured.as_ref());
+            }
         }
         let selection =
             Selection { devices: &args.device, node, configured: configured.as_ref(), xdd: args.xdd };

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::compact;
 use crate::eds::check::keys::{self, Keys, RESERVED, UNREAD};
+use crate::eds::coded;
 use crate::eds::names::{ModuleTopic, Topic, canonical};
 use crate::eds::view::{ObjectPart, Part, View};
 use crate::model::{Further, FurtherSection, Index, KeyValue, Module};
@@ -63,7 +64,9 @@ pub(super) fn further_keys(topic: Topic, part: &Part<'_>) -> Vec<KeyValue> {
 
 /// Those of an object's own section: where it has sub-indices, its flags are read there only.
 pub(super) fn further_keys_of(index: Index, object: &ObjectPart<'_>, own: &Part<'_>) -> Vec<KeyValue> {
-    let more: &[&str] = if object.subs.is_empty() { &[] } else { &["ObjFlags"] };
+    let code = own.value("ObjectType").and_then(|text| coded::object_code(text.value));
+    let has_subs = matches!(code, Some(8 | 9)) || object.subs.keys().any(|sub| *sub > 0);
+    let more: &[&str] = if has_subs { &["ObjFlags"] } else { &[] };
     unread(Topic::Object(index), own, more)
 }
 

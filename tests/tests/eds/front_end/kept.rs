@@ -163,10 +163,12 @@ fn what_a_file_says_in_its_own_words_stays_as_it_is() {
 #[test]
 fn misspelled_and_repeated_keys_are_kept_once() {
     let text = "[2000]\nParameterName=a\nData Type=5\nAccessType=ro\nUnit=m\nunit=mm\nSRDOMAPPING=1\nUnit =cm\nEmpty=\n=5\n\
+                [2001]\nParameterName=b\nDataType=5\nAccessType=ro\nObjFlags=NV\n[2001sub0]\nSubNumber=1\n\
                 [Größe]\nBreite=3 µm\n";
     let read = device("a.eds", text);
     let further = read.further.unwrap();
     let line = |key: &od_spec::model::KeyValue| format!("{}={}", key.key, key.value);
+    assert_eq!(further.keys.len(), 1);
     let kept: Vec<String> = further.keys["2000"].iter().map(line).collect();
     assert_eq!(kept, ["SRDOMapping=1", "Unit=cm"]);
     let system = compiled("a.eds", text).0.system.unwrap();
