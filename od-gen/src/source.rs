@@ -8,7 +8,9 @@ use std::path::{Component, Path, PathBuf};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::{FileId, SourceMap};
 use od_spec::xdd::Disabled;
-use od_spec::{Compiled, Loader, Strictness, add_source, compile_as, may_be_specification, part_of};
+use od_spec::{
+    Compiled, Loader, Strictness, add_source, compile_as, compile_with_modules, may_be_specification, part_of,
+};
 
 /// A little more than the compiler accepts, so that larger files are refused without being read whole.
 const READ_LIMIT: u64 = (64 << 20) + 1;
@@ -40,6 +42,19 @@ pub fn compile_file(path: &Path, sources: &mut SourceMap, loader: &mut FileLoade
     compile_file_as(Strictness::Foreign, path, sources, loader)
 }
 
+/// [`compile_file`], with these modules plugged into the bus coupler that an EDS describes.
+pub fn compile_file_with_modules(
+    path: &Path,
+    sources: &mut SourceMap,
+    loader: &mut FileLoader,
+    modules: &[u32],
+) -> Compiled {
+    match opened(path, sources, loader) {
+        Ok(root) => compile_with_modules(sources, root, loader, modules),
+        Err(diagnostic) => refused(*diagnostic),
+    }
+}
+
 /// [`compile_file`], with an EDS or DCF held to the standard or only read.
 pub fn compile_file_as(
     strictness: Strictness,
@@ -47,17 +62,18 @@ pub fn compile_file_as(
     sources: &mut SourceMap,
     loader: &mut FileLoader,
 ) -> Compiled {
-    match open(
-        path,
-        "check the path; what is read are specifications (`*.od.yaml`), EDS and DCF files",
-        sources,
-    ) {
-        Ok(root) => {
-            loader.read.push(path.to_owned());
-            compile_as(strictness, sources, root, loader)
-        }
+    match opened(path, sources, loader) {
+        Ok(root) => compile_as(strictness, sources, root, loader),
         Err(diagnostic) => refused(*diagnostic),
     }
+}
+
+/// A file that is compiled.
+fn opened(path: &Path, sources: &mut SourceMap, loader: &mut FileLoader) -> Result<FileId, Box<Diagnostic>> {
+    let help = "check the path; what is read are specifications (`*.od.yaml`), EDS and DCF files";
+    let root = open(path, help, sources)?;
+    loader.read.push(path.to_owned());
+    Ok(root)
 }
 
 /// [`compile_file_as`], of bytes that were read already: the name stands for the path.

@@ -29,12 +29,20 @@ pub struct Commissioning {
     pub net_name: String,
     /// Serial number by which LSS finds the node, and which nobody sets over the bus; that of the identity (1018h.4) where none is stated.
     pub serial_number: Option<u32>,
+    /// Whether the node is the CANopen manager of the network.
+    pub manager: bool,
+    /// Reference designation of the node, as in drawings of the plant; may be empty.
+    pub reference: String,
+    /// Reference designation of the network; may be empty.
+    pub net_reference: String,
     /// Values of single entries; every other entry keeps its default.
     pub values: ParameterValues,
     /// Locked entries among the values: the device takes these only while it is unlocked for service.
     pub unlocked: BTreeSet<EntryId>,
     /// What objects and entries are called in the application; beside the names that the device gives them.
     pub denotations: BTreeMap<Denoted, String>,
+    /// Reference designations of objects and entries.
+    pub references: BTreeMap<Denoted, String>,
     /// The files of DOMAINs.
     pub files: BTreeMap<EntryId, DomainFiles>,
     /// What people say about the node: the titles of parameter files, and more.
@@ -62,7 +70,7 @@ impl Denoted {
     }
 
     /// Whether a device has it.
-    fn is_in(self, device: &Dictionary) -> bool {
+    pub(crate) fn is_in(self, device: &Dictionary) -> bool {
         let object = device.objects.get(&self.index);
         object.is_some_and(|object| self.sub.is_none_or(|sub| object.entry(sub).is_some()))
     }
@@ -105,18 +113,15 @@ impl Commissioning {
             net_number: 1,
             net_name: String::new(),
             serial_number: None,
+            manager: false,
+            reference: String::new(),
+            net_reference: String::new(),
             values: ParameterValues::new(),
             unlocked: BTreeSet::new(),
             denotations: BTreeMap::new(),
+            references: BTreeMap::new(),
             files: BTreeMap::new(),
             remarks: Vec::new(),
-        }
-    }
-
-    /// Gives an object or entry a name in the application, if the device has it.
-    pub(crate) fn denote(&mut self, device: &Dictionary, of: Denoted, name: String) {
-        if of.is_in(device) {
-            self.denotations.insert(of, name);
         }
     }
 

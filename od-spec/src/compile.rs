@@ -78,7 +78,7 @@ pub fn compile_as(
         let rules = check::Rules { format: FileFormat::Xdd, ..standard::rules(&check::RULES) };
         compile_xdd(rules, sources, root, strictness, loader.disabled())
     } else if eds::is_eds(file.name(), file.text()) {
-        compile_eds(standard::rules(&check::RULES), sources, root, strictness)
+        compile_eds(standard::rules(&check::RULES), sources, root, strictness, None)
     } else if let Some(diagnostic) = no_specification(file, sources.whole(root)) {
         let mut diagnostics = Diagnostics::new();
         diagnostics.push(diagnostic);
@@ -86,6 +86,20 @@ pub fn compile_as(
     } else {
         compile_with(standard::rules(&check::RULES), sources, root, loader)
     }
+}
+
+/// [`compile`], with these modules plugged into the bus coupler that an EDS or DCF describes, in place of those that it names.
+pub fn compile_with_modules(
+    sources: &mut SourceMap,
+    root: FileId,
+    loader: &mut dyn Loader,
+    modules: &[u32],
+) -> Compiled {
+    let file = sources.file(root);
+    if xdd::is_xdd(file.name(), file.text()) || !eds::is_eds(file.name(), file.text()) {
+        return compile(sources, root, loader);
+    }
+    compile_eds(standard::rules(&check::RULES), sources, root, Strictness::Foreign, Some(modules))
 }
 
 /// Whether a text is a specification, a part of one or a library: its first key says so.
@@ -121,15 +135,16 @@ fn no_specification(file: &SourceFile, whole: Span) -> Option<Diagnostic> {
 
 /// Everything that there is to say about an EDS or DCF, as serious as the standard takes it.
 pub(crate) fn findings(sources: &SourceMap, file: FileId) -> Diagnostics {
-    compile_eds(standard::rules(&check::RULES), sources, file, Strictness::Standard).diagnostics
+    compile_eds(standard::rules(&check::RULES), sources, file, Strictness::Standard, None).diagnostics
 }
 
-/// An EDS or DCF goes the way of a specification, but for its reader.
+/// An EDS or DCF goes the way of a specification, but for its reader. `modules` are plugged in, or those that it names.
 fn compile_eds(
     rules: check::Rules<'_>,
     sources: &SourceMap,
     root: FileId,
     strictness: Strictness,
+    modules: Option<&[u32]>,
 ) -> Compiled {
     let mut diagnostics = Diagnostics::new();
     let file = sources.file(root);
@@ -137,7 +152,10 @@ fn compile_eds(
     let document = eds::Document::scan(root, &text);
     let name = eds::file_name(file.name());
     let facts = FileFacts { name, encoding: file.encoding(), format: rules.format };
-    let view = View::new(&document, root, eds::is_dcf(name), facts);
+    let mut view = View::new(&document, root, eds::is_dcf(name), facts);
+    if let Some(modules) = modules {
+        modules.clone_into(&mut view.connected);
+    }
     eds::check::document(&view, &mut diagnostics);
     let read = read(&view, file.name(), standard::data_type, &mut diagnostics);
     resolved(rules, read, strictness, diagnostics)
@@ -193,11 +211,14 @@ fn compile_xdd(
 /// What was read from a file of others, as a model.
 fn resolved(
     rules: check::Rules<'_>,
-    Read { spec, node }: Read,
+    Read { spec, further, node }: Read,
     strictness: Strictness,
     mut diagnostics: Diagnostics,
 ) -> Compiled {
-    let Resolved { system, .. } = resolve::resolve(&spec, &[], &mut diagnostics);
+    let Resolved { mut system, .. } = resolve::resolve(&spec, &[], &mut diagnostics);
+    for device in &mut system.devices {
+        device.further.clone_from(&further);
+    }
     let id = node.as_ref().and_then(|node| node.node);
     check::foreign(rules, &system, id, &mut diagnostics);
     let device = system.devices.first();

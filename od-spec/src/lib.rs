@@ -61,7 +61,7 @@ pub use check::departures::departures;
 pub use check::names::texts_fit_eds::problem as eds_text_problem;
 pub use check::values::start_values_are_allowed::start_of_code;
 pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues, TextOfNode, bit_rate};
-pub use compile::{Compiled, Strictness, compile, compile_as, is_specification};
+pub use compile::{Compiled, Strictness, compile, compile_as, compile_with_modules, is_specification};
 pub use decode::is_device_key;
 pub use diag::nearest;
 pub use files::{Loader, NoFiles, add_source, may_be_specification, read_text};

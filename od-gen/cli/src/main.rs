@@ -8,6 +8,7 @@ mod language;
 mod link;
 mod listing;
 mod messages;
+mod modules;
 mod output;
 mod parallel;
 mod plant_file;

@@ -9,6 +9,7 @@ use od_gen::condense;
 use od_gen::source::{FileLoader, compile_file};
 use od_spec::diag::render;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::eds::codes::UNKNOWN_MODULE;
 use od_spec::eds::is_eds;
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
@@ -168,12 +169,37 @@ impl Report {
         }
     }
 
+    /// Tells what an XDD of a device, or an XDC of a node, does without.
+    pub(crate) fn not_in_xdd(&self, device: &Dictionary, node: Option<&Commissioning>) {
+        let further = device.further.as_ref();
+        let (keys, modules) = further.map_or((0, 0), |further| (further.count(), further.modules.len()));
+        let of_node = node.map_or(0, |node| {
+            let texts = [&node.reference, &node.net_reference].into_iter().filter(|text| !text.is_empty());
+            node.references.len() + texts.count()
+        });
+        let keys = keys + of_node;
+        if keys == 0 {
+            return;
+        }
+        let modules =
+            if modules == 0 { String::new() } else { format!(", with all of its {modules} modules,") };
+        self.note(&format!(
+            "`{}`: {keys} keys of the file{modules} are in no XDD or XDC, which have no place for them",
+            device.key
+        ));
+    }
+
     /// Shows one message that has no place in a source text.
     pub(crate) fn refuse(&self, diagnostic: Diagnostic) -> u8 {
         let mut diagnostics = Diagnostics::new();
         diagnostics.push(diagnostic);
-        let of_the_command_line =
-            [codes::BAD_NODE_ID, codes::UNKNOWN_DEVICE, codes::UNKNOWN_WORD, codes::BAD_NOTATION];
+        let of_the_command_line = [
+            codes::BAD_NODE_ID,
+            codes::UNKNOWN_DEVICE,
+            codes::UNKNOWN_WORD,
+            codes::BAD_NOTATION,
+            UNKNOWN_MODULE,
+        ];
         let is_usage = diagnostics.iter().all(|diagnostic| of_the_command_line.contains(&diagnostic.code));
         let code = if is_usage { USAGE } else { ERRORS };
         self.show(&diagnostics, &SourceMap::new());

@@ -30,6 +30,7 @@ mod change;
 mod code;
 mod device;
 mod entries;
+mod further;
 mod manual;
 mod node;
 mod objects;
@@ -161,6 +162,7 @@ pub fn compare(question: &Question<'_>) -> Result<Difference, Unpaired> {
 fn device_changes(old: &System, new: &System, devices: Devices<'_>) -> (Vec<Change>, Vec<Unknown>) {
     let mut changes = devices.device();
     changes.extend(devices.objects());
+    changes.extend(devices.further());
     let mut unknown = Vec::new();
     if devices.scope.is_everything() {
         let meanings = |names| {

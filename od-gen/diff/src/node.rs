@@ -7,7 +7,7 @@ use od_spec::model::{Dictionary, EntryId, Fact, Role};
 
 use super::change::{Change, Class, Place};
 use super::rules;
-use super::words;
+use super::words::{self, yes_no};
 
 /// What differs in a node: its place in a network, and the values that are set for it.
 pub(super) fn changes(
@@ -18,6 +18,10 @@ pub(super) fn changes(
         Some(Change::text(Place::Device, Fact::Node, &before, &after)?.part(part).so(class, because))
     };
     let number = |number: u32| number.to_string();
+    let connected = |device: &Dictionary| {
+        let modules = device.further.as_ref().map(|further| further.connected.iter().copied().map(number));
+        modules.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    };
     let rate = |rate: u16| format!("{rate} kbit/s");
     let facts = [
         fact(
@@ -48,6 +52,20 @@ pub(super) fn changes(
             new.serial_number.map(number).unwrap_or_default(),
             Class::Plc,
             "LSS finds another node",
+        ),
+        fact(
+            "manager",
+            yes_no(old.manager).to_owned(),
+            yes_no(new.manager).to_owned(),
+            Class::Behaviour,
+            "the network has one manager",
+        ),
+        fact(
+            "modules plugged in",
+            connected(old_device),
+            connected(new_device),
+            Class::Plc,
+            "the sub-indices of the modules are others",
         ),
         fact(
             "name of the network",
@@ -90,7 +108,13 @@ fn texts(old: &Commissioning, new: &Commissioning) -> Vec<Change> {
                 .into_iter()
                 .filter_map(move |(kind, path)| Some((format!("{kind} file of {id}"), path.clone()?)))
         });
-        names.chain(files).collect()
+        let references = node.references.iter();
+        let references =
+            references.map(|(of, text)| (format!("reference designation of {of}"), text.clone()));
+        let of_node = [("the node", &node.reference), ("the network", &node.net_reference)];
+        let of_node = of_node.into_iter().filter(|(_, text)| !text.is_empty());
+        let of_node = of_node.map(|(of, text)| (format!("reference designation of {of}"), text.clone()));
+        names.chain(files).chain(references).chain(of_node).collect()
     };
     let (before, after) = (all(old), all(new));
     let parts: BTreeSet<&String> = before.keys().chain(after.keys()).collect();

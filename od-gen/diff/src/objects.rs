@@ -181,7 +181,7 @@ impl Devices<'_> {
 }
 
 /// What a place is called: of an entry that came or went, on the side that has it.
-fn name(old: &Object, new: &Object, place: &Place) -> String {
+pub(super) fn name(old: &Object, new: &Object, place: &Place) -> String {
     let Place::Entries { first, .. } = place else { return new.name.clone() };
     match (new.entry(*first), old.entry(*first)) {
         (Some(entry), _) => format!("{}.{}", new.name, entry.name),

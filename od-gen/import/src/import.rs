@@ -1,13 +1,16 @@
 //! An EDS or DCF as a specification: the model as text, with what was wrong beside the object that it was wrong at, and what
 //! has no place at the end.
 
-use std::collections::BTreeMap;
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::diag::codes::{XDD_DISABLED, XDD_LEFT_OUT};
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
-use od_spec::eds::codes::{LINKS_OF_NOTHING, MODULES, NO_INDEX, NO_PLACE, OBJECT_LEFT_OUT, UNREAD};
-use od_spec::eds::{Document, Owner};
-use od_spec::model::{Dictionary, EditorProperty, EntryId, ObjectKind, Storage, System};
+use od_spec::eds::codes::{LINKS_OF_NOTHING, MODULES, NO_INDEX, NO_PLACE, OBJECT_LEFT_OUT};
+use od_spec::eds::{Document, Owner, owner};
+use od_spec::model::{
+    Dictionary, EditorProperty, EntryId, Further, Index, KeyValue, Module, ObjectKind, Storage, System,
+};
 use od_spec::source::{FileId, SourceMap, Spanned};
 use od_spec::visible::straight;
 use od_spec::wording::{Notation, Wording};
@@ -32,8 +35,8 @@ pub struct Imported {
 
 /// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, links of nothing, values without a
 /// place.
-const WITHOUT_PLACE: [&Code; 7] =
-    [OBJECT_LEFT_OUT, MODULES, LINKS_OF_NOTHING, NO_PLACE, UNREAD, XDD_DISABLED, XDD_LEFT_OUT];
+const WITHOUT_PLACE: [&Code; 6] =
+    [OBJECT_LEFT_OUT, MODULES, LINKS_OF_NOTHING, NO_PLACE, XDD_DISABLED, XDD_LEFT_OUT];
 
 /// Writes the specification of a compiled EDS or DCF. `None` where there is no model.
 ///
@@ -55,32 +58,44 @@ pub fn import(
     let mut options =
         Options { head: vec![format!("Made from {}.", base_name(file.name()))], ..Options::default() };
     let properties = if is_xdd { properties(device) } else { Vec::new() };
-    let remarks = document.remarks().into_iter().map(|remark| (place(device, remark.owner), remark.text));
-    let remarks = remarks.chain(properties.iter().map(|(place, text)| (Some(*place), text.as_str())));
+    let remarks = document
+        .remarks()
+        .into_iter()
+        .map(|remark| (place(device, remark.owner), Cow::Borrowed(remark.text)));
+    let remarks =
+        remarks.chain(properties.iter().map(|(place, text)| (Some(*place), Cow::Borrowed(text.as_str()))));
     let mut without_place = Vec::new();
     let mut remarks: Vec<_> = remarks.collect();
-    for extra in document.extras() {
-        match (place(device, extra.owner), extra.section) {
-            (Some(place), _) => remarks.push((Some(place), extra.text)),
-            (None, Some(section)) => without_place.push(format!("[{section}] {}", extra.text)),
+    let nothing = Further::default();
+    let further = device.further.as_deref().unwrap_or(&nothing);
+    for (section, key) in
+        further.keys.iter().flat_map(|(section, keys)| keys.iter().map(move |key| (section, key)))
+    {
+        match (place(device, owner(section)), owner(section)) {
+            (Some(place), _) => remarks.push((Some(place), Cow::Owned(line(key)))),
+            (None, Owner::File) => without_place.push(format!("[{section}] {}", line(key))),
             // Of an object that is left out, which is said.
-            (None, None) => {}
+            (None, Owner::Object(_) | Owner::Entry(_)) => {}
         }
     }
+    for section in &further.sections {
+        without_place.extend(section.keys.iter().map(|key| format!("[{}] {}", section.name, line(key))));
+    }
+    without_place.extend(further.modules.iter().map(|(number, module)| described(*number, module)));
     remarks.retain(|(place, text)| !place.is_some_and(|place| is_said_by_stored(device, place, text)));
     let usual = usual(&remarks, device);
     for (place, text) in remarks {
         match place {
-            Some(_) if usual.contains_key(text) => {}
-            Some(place) => options.comments.entry(place).or_default().push(text.to_owned()),
-            None => options.head.push(text.to_owned()),
+            Some(_) if usual.contains_key(&text) => {}
+            Some(place) => options.comments.entry(place).or_default().push(text.into_owned()),
+            None => options.head.push(text.into_owned()),
         }
     }
     let entries = device.entries().count();
     options
         .head
         .extend(usual.into_iter().map(|(text, count)| format!("{text}, at {count} of {entries} entries")));
-    options.head.extend(comment_lines(&document));
+    options.head.extend(further.comments.iter().cloned());
     for finding in &compiled.diagnostics {
         let Some(label) = finding.labels.first() else { continue };
         let line = file.line_col(label.span.start).line;
@@ -137,10 +152,13 @@ fn is_said_by_stored(device: &Dictionary, place: Place, text: &str) -> bool {
 }
 
 /// What stands at most of the entries, such as a maker's key that always has the same value, and at how many: it is said once.
-fn usual<'t>(remarks: &[(Option<Place>, &'t str)], device: &Dictionary) -> BTreeMap<&'t str, usize> {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+fn usual<'t>(
+    remarks: &[(Option<Place>, Cow<'t, str>)],
+    device: &Dictionary,
+) -> BTreeMap<Cow<'t, str>, usize> {
+    let mut counts: BTreeMap<Cow<'t, str>, usize> = BTreeMap::new();
     for (_, text) in remarks.iter().filter(|(place, _)| place.is_some()) {
-        *counts.entry(text).or_default() += 1;
+        *counts.entry(text.clone()).or_default() += 1;
     }
     let most = (device.entries().count() / 2).max(3);
     counts.retain(|_, count| *count > most);
@@ -176,15 +194,20 @@ fn place(device: &Dictionary, owner: Owner) -> Option<Place> {
     }
 }
 
-/// The lines of `[Comments]`.
-fn comment_lines<'d>(document: &'d Document<'_>) -> impl Iterator<Item = String> + 'd {
-    let sections = document.sections().filter(|section| section.name().eq_ignore_ascii_case("Comments"));
-    let lines = sections.flat_map(|section| section.keys());
-    let is_text =
-        |key: &str| key.get(..4).is_some_and(|front| front.eq_ignore_ascii_case("Line")) && key.len() > 4;
-    let texts = lines
-        .filter(move |line| line.key().is_some_and(|key| is_text(key) && !key.eq_ignore_ascii_case("Lines")));
-    texts.filter_map(|line| line.value()).filter(|text| !text.is_empty()).map(ToOwned::to_owned)
+/// A key and its value on a line.
+fn line(KeyValue { key, value, .. }: &KeyValue) -> String {
+    format!("{key}={value}")
+}
+
+/// A module, and what it has to do with objects.
+fn described(number: u32, module: &Module) -> String {
+    let list =
+        |indices: &BTreeSet<Index>| indices.iter().map(Index::to_string).collect::<Vec<_>>().join(", ");
+    let objects = [("brings", &module.brings), ("extends", &module.extends)];
+    let objects = objects.into_iter().filter(|(_, indices)| !indices.is_empty());
+    let mut parts = vec![format!("module {number}: {} ({})", module.product_name, module.order_code)];
+    parts.extend(objects.map(|(what, indices)| format!("{what} {}", list(indices))));
+    parts.join("; ")
 }
 
 /// What a DCF says of its node.
@@ -229,7 +252,14 @@ fn node_values(compiled: &Compiled, sources: &SourceMap, system: &System, device
 /// What else belongs to the node of a DCF, in the keys of one.
 fn node_texts(node: &Commissioning) -> Vec<String> {
     let names = node.denotations.iter().map(|(of, name)| format!("{of}: Denotation={name}"));
-    let mut texts: Vec<String> = names.collect();
+    let references = node.references.iter().map(|(of, text)| format!("{of}: ParamRefd={text}"));
+    let mut texts: Vec<String> = names.chain(references).collect();
+    let of_node = [("NodeRefd", &node.reference), ("NetRefd", &node.net_reference)];
+    let said = of_node.into_iter().filter(|(_, text)| !text.is_empty());
+    texts.extend(said.map(|(key, text)| format!("{key}={text}")));
+    if node.manager {
+        texts.push("CANopenManager=1".to_owned());
+    }
     for (id, files) in &node.files {
         let keys = [("UploadFile", &files.upload), ("DownloadFile", &files.download)];
         let paths =

@@ -135,7 +135,7 @@ fn found(about: About<'_>, node: &Commissioning) -> Vec<(Option<EntryId>, Diagno
     serious.map(|one| (of_file(one), one.clone())).collect()
 }
 
-/// Names in the application and files of DOMAINs, for which a parameter file has no place.
+/// Names in the application, reference designations and files of DOMAINs, for which a parameter file has no place.
 fn texts(node: &Commissioning) -> Vec<String> {
     let names =
         node.denotations.iter().map(|(of, name)| format!("{of}: its name `{name}` in the application"));
@@ -145,5 +145,11 @@ fn texts(node: &Commissioning) -> Vec<String> {
             Some(format!("{id}: the file `{}`, which {what} its content", path.as_ref()?))
         })
     });
-    names.chain(files).collect()
+    let references =
+        node.references.iter().map(|(of, text)| format!("{of}: its reference designation `{text}`"));
+    let of_node = [("node", &node.reference), ("network", &node.net_reference)];
+    let of_node = of_node.into_iter().filter(|(_, text)| !text.is_empty());
+    let of_node = of_node.map(|(of, text)| format!("the reference designation `{text}` of the {of}"));
+    let manager = node.manager.then(|| "the node is the CANopen manager".to_owned());
+    names.chain(references).chain(files).chain(of_node).chain(manager).collect()
 }

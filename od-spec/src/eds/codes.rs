@@ -1,7 +1,7 @@
 //! What reading an EDS or DCF can say about its objects and values. The code of a rule over the text alone stands with the
 //! rule.
 
-pub use super::check::{LINKS_OF_NOTHING, NO_INDEX, SETTINGS_IN_EDS};
+pub use super::check::{LINKS_OF_NOTHING, NO_INDEX, SETTINGS_IN_EDS, UNKNOWN_MODULE};
 use crate::diag::{Code, Severity};
 
 macro_rules! codes {
@@ -78,9 +78,7 @@ codes! {
     TEXT_NOT_ASCII Error Warning "EDS511" "CiA 301 7.1.6.3" "a VISIBLE_STRING with other characters":
         "A VISIBLE_STRING holds the printable characters of ASCII. The value is left out, as nobody knows which bytes the device has."
     NO_PLACE Note Note "EDS512" "CiA 306 4.6.3.2" "a value that has no place in the dictionary":
-        "Values and limits of DOMAIN, time and text entries, limits that depend on the node-ID and reference designations (`ParamRefd`) are not kept: the dictionary has no place for them. Parameter values, application names (`Denotation`) and the files of DOMAINs belong to a node, and have a place in a DCF only. What has none is left out of what is made from the file."
+        "Values and limits of DOMAIN, time and text entries and limits that depend on the node-ID are not kept: the dictionary has no place for them. Parameter values, application names (`Denotation`), reference designations (`ParamRefd`) and the files of DOMAINs belong to a node, and have a place in a DCF only. What has none is left out of what is made from the file."
     LIMIT_ON_TYPE Warning Warning "EDS513" "CiA 306 4.6.3.2" "a limit where none can be":
         "Only numbers have limits. Those of texts, byte blocks and BOOLEANs are left out."
-    UNREAD Warning Warning "EDS514" "CiA 306 4.5, 4.6.3.2 and 5.3" "a key that is not kept":
-        "CANopen Safety (`SRDOMapping`, `InvertedSRAD`, `CANopenSafetySupported`), node guarding as the device states it (`NG_Slave`, `NG_Master`) and reference designations of a node have no place in the dictionary: files that are made from this one do without. A safety device whose EDS lacks them cannot be set up; keep the maker's file for that."
 }

@@ -245,6 +245,11 @@ impl Section {
         self
     }
 
+    /// The name in the header.
+    pub fn name(&self) -> &str {
+        self.lines.first().and_then(Line::name).unwrap_or_default()
+    }
+
     /// Adds a key and its value behind the others. Neither may hold a line break, and the key no `=`.
     pub fn push(&mut self, key: &str, value: &str) {
         self.lines.push(Line::new_key_value(key, value));

@@ -12,7 +12,6 @@ mod document;
 mod editor;
 mod edits;
 pub(crate) mod example;
-mod extras;
 mod line;
 pub(crate) mod names;
 pub(crate) mod number;
@@ -50,6 +49,5 @@ pub(crate) fn ends_with(name: &str, extension: &str) -> bool {
 
 pub use dates::{date_text, time_text};
 pub use document::{Document, Section, SectionRef};
-pub use extras::Extra;
 pub use line::{Line, LineEnd, LineKind};
-pub use owner::{GENERATED, MARK, Owner, Remark};
+pub use owner::{GENERATED, MARK, Owner, Remark, owner};

@@ -34,7 +34,7 @@ pub struct Remark<'d> {
 }
 
 /// What the section of a name is about.
-pub(super) fn owner(section: &str) -> Owner {
+pub fn owner(section: &str) -> Owner {
     match topic(section) {
         Topic::Object(index) | Topic::Elements(index, _) | Topic::ObjectLinks(index) => Owner::Object(index),
         Topic::Sub(index, sub) => match u8::try_from(sub) {

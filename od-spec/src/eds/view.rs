@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::document::{Document, SectionRef};
 use super::line::{Line, LineKind};
 use super::names::{ElementList, List, ModuleTopic, Topic, topic};
+use super::number::lenient_integer;
 use crate::encoding::Encoding;
 use crate::model::Index;
 use crate::source::{FileId, Span, Spanned};
@@ -37,6 +38,8 @@ pub(crate) struct View<'d> {
     pub objects: BTreeMap<Index, ObjectPart<'d>>,
     /// Modules by number.
     pub modules: BTreeMap<u32, BTreeMap<ModuleTopic, Part<'d>>>,
+    /// The numbers of the modules that are plugged in, in order.
+    pub connected: Vec<u32>,
 }
 
 /// The sections about an object.
@@ -86,11 +89,13 @@ impl<'d> View<'d> {
             unknown: Vec::new(),
             objects: BTreeMap::new(),
             modules: BTreeMap::new(),
+            connected: Vec::new(),
         };
         for section in document.sections() {
             view.add(section);
         }
         view.is_dcf |= view.sections.contains_key(&Topic::Commissioning);
+        view.connected = view.section(Topic::ConnectedModules).map(Part::modules).unwrap_or_default();
         view
     }
 
@@ -124,7 +129,7 @@ impl<'d> View<'d> {
         };
         match slot {
             Some(part) => part.sections.push(section),
-            None => *slot = Some(Part { sections: vec![section], file }),
+            None => *slot = Some(Part::of(section, file)),
         }
     }
 
@@ -173,6 +178,29 @@ fn add_to<'d, K: Ord>(parts: &mut BTreeMap<K, Part<'d>>, key: K, section: Sectio
 }
 
 impl<'d> Part<'d> {
+    /// A single section.
+    pub(crate) fn of(section: SectionRef<'d, 'd>, file: FileId) -> Self {
+        Self { sections: vec![section], file }
+    }
+
+    /// The numbers of the modules that `[ConnectedModules]` names, in order. Two in one place are two modules, unless a line
+    /// only repeats another.
+    fn modules(&self) -> Vec<u32> {
+        let slots = self.entries().filter_map(|entry| {
+            let slot = lenient_integer(entry.key.value)?;
+            let module = lenient_integer(entry.value.value)?;
+            Some((slot, u32::try_from(module).ok()?))
+        });
+        let mut by_slot: BTreeMap<i128, Vec<u32>> = BTreeMap::new();
+        for (slot, module) in slots {
+            let modules = by_slot.entry(slot).or_default();
+            if modules.as_slice() != [module] {
+                modules.push(module);
+            }
+        }
+        by_slot.into_values().flatten().collect()
+    }
+
     /// The name of the first section, as it is spelled.
     pub(crate) fn name(&self) -> Spanned<&'d str> {
         let header = self.sections[0].header();

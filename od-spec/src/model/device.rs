@@ -1,9 +1,11 @@
 //! A device: its dictionary and what an EDS says about it.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::{
-    DataType, Direction, DynamicChannel, Entry, EntryId, Fact, Facts, Index, Object, ObjectKind, Pdo, Text,
+    DataType, Direction, DynamicChannel, Entry, EntryId, Fact, Facts, Further, Index, Object, ObjectKind,
+    Pdo, Text,
 };
 use crate::source::Span;
 
@@ -30,6 +32,8 @@ pub struct Dictionary {
     pub objects: BTreeMap<Index, Object>,
     /// PDOs, RPDOs first, by number.
     pub pdos: Vec<Pdo>,
+    /// Of an EDS or DCF: what it says beside all this.
+    pub further: Option<Arc<Further>>,
     /// Where the facts about the device stand.
     pub facts: Facts,
     /// Where the device is defined.
@@ -52,6 +56,11 @@ impl Dictionary {
     /// Where a fact about the device stands; where nobody states it, the device's own place.
     pub fn place(&self, fact: Fact) -> Span {
         self.facts.get(fact).map_or(self.span, |statement| statement.span)
+    }
+
+    /// Whether an object, or some of its sub-indices, comes with modules that are plugged in.
+    pub fn is_of_modules(&self, index: Index) -> bool {
+        self.further.as_ref().is_some_and(|further| further.is_of_modules(index))
     }
 
     /// An entry.

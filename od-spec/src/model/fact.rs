@@ -101,6 +101,10 @@ facts! {
     Dummies = "dummies",
     /// Indices at which a PLC may create network variables.
     DynamicChannels = "dynamic-channels",
+    /// Modules of a bus coupler.
+    Modules = "modules",
+    /// What a file says beyond the other facts.
+    Further = "key",
     /// How many PDOs a device has.
     PdoCount = "pdos",
     /// A condition between entries, and when it counts.
@@ -157,6 +161,8 @@ impl Fact {
             | Self::Lss
             | Self::Dummies
             | Self::DynamicChannels
+            | Self::Modules
+            | Self::Further
             | Self::PdoCount
             | Self::Node => true,
             Self::Meaning

@@ -13,8 +13,9 @@ pub use file::{ParameterFile, is_parameter_file, parameter_file, settings_of_map
 pub use layers::{Assigned, Layer, Origin, assign_layers};
 pub(crate) use layers::{Laid, lay_over};
 
+use crate::ast::Name;
 use crate::check;
-use crate::commissioning::{Commissioning, ParameterValues};
+use crate::commissioning::{Commissioning, Denoted, ParameterValues};
 use crate::diag::{Diagnostics, Suggestions};
 use crate::eds::read::{FileUse, NodeDecl};
 use crate::model::{Author, Dictionary, EntryId, Index, Statement, SubIndex, System, Value};
@@ -198,12 +199,18 @@ pub(crate) fn of_node(
         net_number: decl.net_number.unwrap_or(0),
         net_name: decl.net_name.unwrap_or_default(),
         serial_number,
+        manager: decl.manager,
+        reference: decl.reference.unwrap_or_default(),
+        net_reference: decl.net_reference.unwrap_or_default(),
         values,
         ..usual
     };
-    for (of, name) in decl.denotations {
-        read.denote(device, of, name.value);
-    }
+    let texts = |list: Vec<(Denoted, Name)>| {
+        let of_device = list.into_iter().filter(|(of, _)| of.is_in(device));
+        of_device.map(|(of, text)| (of, text.value)).collect()
+    };
+    read.denotations = texts(decl.denotations);
+    read.references = texts(decl.references);
     for (id, file, path) in decl.files.into_iter().filter(|(id, ..)| device.entry(*id).is_some()) {
         let files = read.files.entry(id).or_default();
         match file {

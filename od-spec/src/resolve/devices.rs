@@ -114,6 +114,7 @@ pub(super) fn resolve<'a>(
                 facts: device_info::facts(device),
                 objects: built.objects,
                 pdos,
+                further: None,
                 span: device.key.span,
             }
         })
@@ -144,6 +145,7 @@ pub(super) fn of_library<'a>(
         any_error: AnyError::default(),
         objects,
         pdos: Vec::new(),
+        further: None,
         facts: Facts::none(),
         span: profile.span,
     })

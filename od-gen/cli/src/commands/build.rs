@@ -116,7 +116,7 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
             continue;
         }
         let stem = &stem(path);
-        summary.extend(devices.into_iter().map(describe));
+        summary.extend(devices.iter().copied().map(describe));
         let node = used.node_id(node);
         if node.is_none() && used.node.is_some() {
             report.note(&format!(
@@ -125,6 +125,11 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
             ));
         }
         let configured = used.node.as_ref().map(|of_file| report.moved(of_file, node, sources));
+        if args.xdd {
+            for device in devices {
+                report.not_in_xdd(device, configured.as_ref());
+            }
+        }
         let selection =
             Selection { devices: &args.device, node, configured: configured.as_ref(), xdd: args.xdd };
         set.extend(artifacts(system, stem, &selection));

@@ -19,6 +19,7 @@ use od_spec::{Commissioning, Layer, NodeOfFile, TextOfNode, assign_layers, bit_r
 
 use crate::exit::ERRORS;
 use crate::messages::Messages;
+use crate::modules::plugged_in;
 use crate::output::{file_name, forced, save};
 use crate::report::{Report, node_id, print, shown};
 use crate::settings::parameter_files;
@@ -52,6 +53,10 @@ pub(crate) struct DcfArgs {
     /// Name of the network [default: of a DCF its own; none]
     #[arg(long, value_name = "NAME")]
     pub net_name: Option<String>,
+
+    /// Modules plugged into a bus coupler, in order, each by number, order code or name: `3,3,7`
+    #[arg(long, value_name = "MODULE", value_delimiter = ',')]
+    pub modules: Vec<String>,
 
     /// Parameter file (YAML) of the node, with values by name and in units; of several, a later one is laid over the earlier ones
     #[arg(long, value_name = "FILE")]
@@ -111,6 +116,10 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     let mut sources = SourceMap::new();
     let mut loader = report.loader();
     let mut compiled = od_gen::source::compile_file(&spec, &mut sources, &mut loader);
+    if !args.modules.is_empty() && compiled.system.is_some() {
+        compiled =
+            plugged_in(&args.modules, &spec, &compiled, &mut sources).map_err(|refusal| refuse(*refusal))?;
+    }
     if let Some(line) = condense(&spec, &mut compiled) {
         report.note(&line);
     }
@@ -165,6 +174,7 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
         further = line;
     }
     if args.xdc {
+        report.not_in_xdd(device, Some(&commissioning));
         let path = path.with_extension("xdc");
         let name = file_name(&path, "the DCF", &read).map_err(refuse)?;
         let bytes = write_xdc(&system, device, &commissioning, &name);

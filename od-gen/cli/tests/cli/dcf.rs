@@ -430,3 +430,79 @@ fn parameters_of_the_shipped_devices_come_back() {
     let dcf = |name: &str| fs::read_to_string(scratch.0.join(name)).unwrap();
     assert!(without_names(&dcf("a.dcf")) == without_names(&dcf("b.dcf")));
 }
+
+/// A bus coupler with two kinds of modules, as an EDS.
+const COUPLER: &str = "[DeviceInfo]\nVendorNumber=7\nProductName=Coupler\nBaudRate_125=1\n\
+    [6000]\nParameterName=inputs\nObjectType=8\nSubNumber=1\n\
+    [6000sub0]\nParameterName=count\nDataType=5\nAccessType=ro\nDefaultValue=0\n\
+    [SupportedModules]\nNrOfEntries=3\n\
+    [M1ModuleInfo]\nProductName=8 inputs\nOrderCode=DI8\n[M1SubExtends]\nNrOfEntries=1\n1=0x6000\n\
+    [M1SubExt6000]\nParameterName=input \nDataType=5\nAccessType=ro\nDefaultValue=1\nCount=1\nSRDOMapping=1\n\
+    [M2ModuleInfo]\nProductName=16 inputs\nOrderCode=DI16\n[M2SubExtends]\nNrOfEntries=1\n1=0x6000\n\
+    [M2SubExt6000]\nParameterName=input \nDataType=5\nAccessType=ro\nDefaultValue=2\nCount=2\n\
+    [M3ModuleInfo]\nProductName=16 inputs\nOrderCode=DI16/2\n";
+
+#[test]
+fn modules_are_plugged_in_by_number_order_code_or_name() {
+    let scratch = Scratch::new("modules");
+    scratch.file("coupler.eds", COUPLER);
+    let run = |modules: &str, file: &str| {
+        let output =
+            odgen(&scratch.0, &["--format", "short", "dcf", file, "--node", "5", "--modules", modules]);
+        (code(&output), stderr(&output))
+    };
+    let written = || fs::read_to_string(scratch.0.join("coupler-5.dcf")).unwrap().replace("\r\n", "\n");
+    assert_eq!(run("1,2,1", "coupler.eds").0, 0);
+    let by_number = written();
+    assert!(by_number.contains("[6000]\nSubNumber=5\n"), "{by_number}");
+    for sub in ["[6000sub1]\nParameterName=input1\n", "[6000sub4]\nParameterName=input4\n"] {
+        let section = by_number.split(sub).nth(1).unwrap().split("\n\n").next().unwrap();
+        assert!(section.ends_with("DefaultValue=1\nPDOMapping=0\nSRDOMapping=1"), "{section}");
+    }
+    assert!(by_number.ends_with("[ConnectedModules]\nNrOfEntries=3\n1=1\n2=2\n3=1\n"), "{by_number}");
+    assert_eq!(run("di8, DI16 ,8 Inputs", "coupler.eds").0, 0);
+    assert_eq!(written(), by_number);
+    // What is read from it has the modules once.
+    let output = odgen(&scratch.0, &["diff", "coupler-5.dcf", "coupler-5.dcf"]);
+    assert!(stdout(&output).starts_with("0 changes"), "{}", stdout(&output));
+    let output = odgen(&scratch.0, &["dcf", "coupler-5.dcf", "--out", "again.dcf"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let again = fs::read_to_string(scratch.0.join("again.dcf")).unwrap().replace("\r\n", "\n");
+    assert_eq!(again.split("[DeviceInfo]").nth(1), by_number.split("[DeviceInfo]").nth(1));
+
+    scratch.file("plain.eds", COUPLER.split("[SupportedModules]").next().unwrap());
+    let refused = |modules: &str, file: &str| {
+        let (code, said) = run(modules, file);
+        assert_eq!(code, 2, "{said}");
+        said.lines().find(|line| line.contains("error")).unwrap().to_owned()
+    };
+    assert_eq!(
+        [
+            refused("1,4", "coupler.eds"),
+            refused("16 inputs", "coupler.eds"),
+            refused("1", "plain.eds"),
+            refused("1", "coupler-5.dcf"),
+        ],
+        [
+            "error[EDS606]: there is no module `4` (the modules are 1 (8 inputs, DI8), 2 (16 inputs, DI16), 3 (16 inputs, DI16/2))",
+            "error[EDS606]: `16 inputs` is the name of several modules: 2, 3 (name one of them by its number)",
+            "error[EDS606]: plain.eds describes no modules (take the EDS of a bus coupler, which describes them under `[SupportedModules]`)",
+            "error[EDS606]: coupler-5.dcf has the objects of modules already (take the EDS of the bus coupler alone)",
+        ]
+    );
+}
+
+#[test]
+fn an_xdd_does_without_what_a_file_says_in_its_own_words_and_it_is_told() {
+    let scratch = Scratch::new("not-in-xdd");
+    scratch.file("coupler.eds", COUPLER);
+    for arguments in [&["build", "coupler.eds", "--xdd"][..], &["dcf", "coupler.eds", "--node", "5", "--xdc"]]
+    {
+        let output = odgen(&scratch.0, arguments);
+        let said = stderr(&output);
+        assert!(
+            said.contains("22 keys of the file, with all of its 3 modules, are in no XDD or XDC"),
+            "{said}"
+        );
+    }
+}

@@ -139,3 +139,47 @@ fn the_device_of_an_eds_has_to_be_known() {
     let found = compare(&Question { device: Some("pmm"), ..question }).unwrap();
     assert!(found.changes().count() > 50, "the other device is another one");
 }
+
+/// What differs between an EDS and a copy in which one text stands for another.
+fn changed(find: &str, replace: &str) -> Vec<String> {
+    const COUPLER: &str = "[DeviceInfo]\nVendorNumber=7\nProductName=Coupler\nBaudRate_125=1\nCANopenSafetySupported=1\n\
+        [Comments]\nLines=1\nLine1=old\n\
+        [2000]\nParameterName=safe input\nDataType=5\nAccessType=ro\nSRDOMapping=1\nUnit=\u{b0}C\n\
+        [SupportedModules]\nNrOfEntries=1\n\
+        [M1ModuleInfo]\nProductName=8 inputs\nOrderCode=DI8\n[M1SubExtends]\nNrOfEntries=1\n1=0x6000\n\
+        [M1SubExt6000]\nParameterName=input\nDataType=5\nAccessType=ro\nCount=1\n[Vendor]\nColor=red\n";
+    let read = |text: &str| {
+        let mut sources = od_spec::source::SourceMap::new();
+        let root = sources.add("coupler.eds", text);
+        od_spec::compile(&mut sources, root, &mut od_spec::NoFiles).system.unwrap()
+    };
+    assert!(COUPLER.contains(find));
+    let (old, new) = (read(COUPLER), read(&COUPLER.replace(find, replace)));
+    let found = compare(&ask(&old, &new, Scope::WhatAnEdsStates)).unwrap();
+    let told = |change: &od_diff::Change| {
+        let [before, after] = [&change.before, &change.after].map(|value| value.as_deref().unwrap_or("-"));
+        let (part, class) = (change.part.as_deref().unwrap_or_default(), change.class().word());
+        format!("{:?} {part} {}: {before} -> {after} [{class}]", change.place, change.fact.word())
+    };
+    found.changes().map(told).collect()
+}
+
+#[test]
+fn files_differ_in_what_they_say_in_their_own_words() {
+    for (find, replace, expected) in [
+        ("Unit=\u{b0}C", "Unit=degC", ""),
+        ("SRDOMapping=1\n", "", "Object(Index(8192)) SRDOMapping key: 1 -> - [behaviour]"),
+        (
+            "CANopenSafetySupported=1",
+            "CANopenSafetySupported=0",
+            "Device [DeviceInfo] CANopenSafetySupported key: 1 -> 0 [behaviour]",
+        ),
+        ("Line1=old", "Line1=new", "Device comments eds: old -> new [documents]"),
+        ("Color=red", "Color=red\nShape=round", "Device [Vendor] Shape key: - -> round [behaviour]"),
+        ("OrderCode=DI8", "OrderCode=DI9", "Device [M1ModuleInfo] OrderCode modules: DI8 -> DI9 [documents]"),
+        ("Count=1", "Count=2", "Device [M1SubExt6000] Count modules: 1 -> 2 [plc]"),
+        ("[Vendor]", "[M2ModuleInfo]\nOrderCode=X\n[Vendor]", "Device 2 modules: - ->  (X) [addition]"),
+    ] {
+        assert_eq!(changed(find, replace).join("; "), expected, "{find}");
+    }
+}

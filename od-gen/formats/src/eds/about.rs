@@ -6,8 +6,20 @@ use od_spec::model::{Date, Dictionary, System};
 use super::withheld::Withheld;
 use super::writer::SectionWriter;
 
-/// The lines of `[Comments]`.
+/// The lines of `[Comments]`: those of the file that the device was read from, or else ours.
 pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dictionary) {
+    let of_file = device.further.as_ref().map(|further| further.comments.clone());
+    let lines = of_file.unwrap_or_else(|| lines(system, device));
+    let mut section = SectionWriter::new("Comments", &[]);
+    section.key("Lines", lines.len());
+    for (number, line) in (1..).zip(lines) {
+        section.text(&format!("Line{number}"), &line);
+    }
+    section.finish(device, document);
+}
+
+/// Our lines, without what readers take for the end of a value.
+fn lines(system: &System, device: &Dictionary) -> Vec<String> {
     let mut lines = vec![format!("{}: {}", system.title, device.name)];
     if let Some(source) = &system.document.source {
         lines.push(format!("Manual: {source}"));
@@ -43,15 +55,5 @@ pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dicti
     if of_the_maker + of_the_standard + no_promise > 0 {
         lines.push("The comments above each section list them, with units and meanings.".to_owned());
     }
-    let mut section = SectionWriter::new("Comments", &[]);
-    section.key("Lines", lines.len());
-    for (number, line) in (1..).zip(lines) {
-        section.key(&format!("Line{number}"), plain(&line));
-    }
-    section.finish(document);
-}
-
-/// A line without what readers take for the end of a value.
-fn plain(line: &str) -> String {
-    line.replace('=', ":").replace(';', ",").replace('#', "No. ")
+    lines.iter().map(|line| line.replace('=', ":").replace(';', ",").replace('#', "No. ")).collect()
 }

@@ -26,7 +26,7 @@ pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dicti
     section.key("NrOfRXPDO", device.pdos_of(Direction::Receive).count());
     section.key("NrOfTXPDO", device.pdos_of(Direction::Transmit).count());
     section.flag("LSS_Supported", info.lss);
-    section.finish(document);
+    section.finish(device, document);
 }
 
 /// `[DynamicChannels]` (CiA 306-3), where there are any.
@@ -46,7 +46,7 @@ pub(super) fn write_channels(document: &mut Document<'_>, device: &Dictionary) {
             channel.difference.map_or(String::new(), |difference| format!(",0x{difference:08X}"));
         section.key(&format!("PPOffset{number}"), format_args!("0x{:08X}{difference}", channel.offset));
     }
-    section.finish(document);
+    section.finish(device, document);
 }
 
 /// `[DummyUsage]`: the placeholders that an RPDO takes. Readers want a key for each.
@@ -55,5 +55,5 @@ pub(super) fn write_dummies(document: &mut Document<'_>, device: &Dictionary) {
     for data_type in DataType::ALL.into_iter().filter(|data_type| data_type.is_dummy()) {
         section.flag(&format!("Dummy{:04X}", data_type.code()), device.info.dummies.contains(&data_type));
     }
-    section.finish(document);
+    section.finish(device, document);
 }

@@ -62,9 +62,12 @@ pub(super) fn write(
     }
 }
 
-/// What an object or entry of a node is called in the application.
+/// What an object or entry of a node is called in the application and in drawings of the plant.
 pub(super) fn denotation(section: &mut SectionWriter, node: &Commissioning, of: Denoted) {
     if let Some(name) = node.denotations.get(&of) {
         section.text("Denotation", name);
+    }
+    if let Some(reference) = node.references.get(&of) {
+        section.text("ParamRefd", reference);
     }
 }

@@ -23,5 +23,5 @@ pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, file: &str
     if let Some(last_eds) = last_eds {
         section.text("LastEDS", last_eds);
     }
-    section.finish(document);
+    section.finish(device, document);
 }

@@ -6,7 +6,7 @@ use od_spec::{Commissioning, Denoted};
 
 use super::comments;
 use super::entry;
-use super::writer::{SectionWriter, entry_section, object_section};
+use super::writer::{SectionWriter, entry_section, object_section, write_further};
 
 /// The list that an object stands in.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -36,7 +36,7 @@ impl List {
     }
 }
 
-/// The three lists with their objects; with the values of a node in a DCF.
+/// The three lists with their objects, and what a file says beside them; with the values of a node in a DCF.
 pub(super) fn write(
     document: &mut Document<'_>,
     system: &System,
@@ -51,11 +51,30 @@ pub(super) fn write(
         for (number, object) in (1..).zip(&objects) {
             section.hexadecimal(&number.to_string(), object.index.0, 4);
         }
-        section.finish(document);
+        section.finish(device, document);
         for object in objects {
             write_object(document, system, device, object, node);
         }
     }
+    if let Some(further) = &device.further {
+        write_further(document, further);
+        if node.is_some() {
+            write_connected(document, device, &further.connected);
+        }
+    }
+}
+
+/// `[ConnectedModules]` of a DCF (CiA 306 6.4), where modules are plugged in.
+fn write_connected(document: &mut Document<'_>, device: &Dictionary, modules: &[u32]) {
+    if modules.is_empty() {
+        return;
+    }
+    let mut section = SectionWriter::new("ConnectedModules", &[]);
+    section.key("NrOfEntries", modules.len());
+    for (place, module) in (1..).zip(modules) {
+        section.key(&place.to_string(), module);
+    }
+    section.finish(device, document);
 }
 
 fn write_object(
@@ -74,9 +93,9 @@ fn write_object(
             entry::write(&mut section, object, var, &object.eds_name_of(var), node);
             of_object(&mut section, object);
             of_entry(&mut section, object, var);
-            section.finish(document);
+            section.finish(device, document);
         }
-        write_links(document, object);
+        write_links(document, device, object);
         return;
     }
     let mut section = SectionWriter::new(&name, &comments::object(object, language));
@@ -87,16 +106,16 @@ fn write_object(
         entry::denotation(&mut section, node, Denoted::object(object.index));
     }
     of_object(&mut section, object);
-    section.finish(document);
+    section.finish(device, document);
     for member in &object.entries {
         let name = entry_section(object.index, member.sub);
         let mut section =
             SectionWriter::new(&name, &comments::entry(device, object.index, member, node, language));
         entry::write(&mut section, object, member, &object.eds_name_of(member), node);
         of_entry(&mut section, object, member);
-        section.finish(document);
+        section.finish(device, document);
     }
-    write_links(document, object);
+    write_links(document, device, object);
 }
 
 /// What CANopenEditor keeps of an object as a whole.
@@ -114,7 +133,7 @@ fn of_entry(section: &mut SectionWriter, object: &Object, entry: &Entry) {
 }
 
 /// The objects that belong together with an object (CiA 306 4.6.4).
-fn write_links(document: &mut Document<'_>, object: &Object) {
+fn write_links(document: &mut Document<'_>, device: &Dictionary, object: &Object) {
     if object.links.is_empty() {
         return;
     }
@@ -123,5 +142,5 @@ fn write_links(document: &mut Document<'_>, object: &Object) {
     for (number, index) in (1..).zip(object.linked()) {
         section.hexadecimal(&number.to_string(), index.0, 4);
     }
-    section.finish(document);
+    section.finish(device, document);
 }

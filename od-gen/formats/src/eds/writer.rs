@@ -6,12 +6,14 @@ use std::fmt::Display;
 
 use od_spec::ascii::{in_ascii, is_printable, transliterate};
 use od_spec::eds::{Document, Section};
-use od_spec::model::{EditorProperty, Index, SubIndex};
+use od_spec::model::{Dictionary, EditorProperty, Further, FurtherSection, Index, KeyValue, SubIndex};
 
 use crate::hexadecimal;
 
 /// Longest line without its line break (CiA 306 4.2).
 const LONGEST_LINE: usize = 255;
+/// The longest key of a file of others, so that there is room for a value.
+const LONGEST_KEY: usize = LONGEST_LINE / 2;
 /// Width at which comments are broken.
 const COMMENT_WIDTH: usize = 110;
 /// Longest word of a comment; what is longer is cut.
@@ -64,9 +66,33 @@ impl SectionWriter {
         self.text(key, if value { "1" } else { "0" });
     }
 
-    /// Puts the section behind those of the document.
-    pub(super) fn finish(self, document: &mut Document<'_>) {
+    /// Puts the section behind those of the document, with the keys that the file of the device has in it beside these.
+    pub(super) fn finish(mut self, device: &Dictionary, document: &mut Document<'_>) {
+        let keys = device.further.as_ref().and_then(|further| further.keys.get(self.0.name()));
+        self.further(keys.into_iter().flatten());
         document.push(self.0);
+    }
+
+    /// Keys in the words of a file, in ASCII and as long as a line.
+    fn further<'k>(&mut self, keys: impl IntoIterator<Item = &'k KeyValue>) {
+        for KeyValue { key, value, .. } in keys {
+            let key = in_ascii(key);
+            if key.len() < LONGEST_KEY {
+                self.text(&key, value);
+            }
+        }
+    }
+}
+
+/// Writes the sections that the file of the device has beside those of the model.
+pub(super) fn write_further(document: &mut Document<'_>, further: &Further) {
+    for FurtherSection { name, keys, .. } in further.all_sections() {
+        let name = in_ascii(name);
+        if name.len() < LONGEST_KEY {
+            let mut section = SectionWriter::new(&name, &[]);
+            section.further(keys);
+            document.push(section.0);
+        }
     }
 }
 
@@ -142,10 +168,10 @@ mod tests {
         let mut section = SectionWriter::new("A", &[]);
         section.key("Name", "Größe");
         section.value("DefaultValue", "Größe");
-        section.finish(&mut document);
+        document.push(section.0);
         let mut section = SectionWriter::new("B", &["word ".repeat(60), String::new(), "x".repeat(400)]);
         section.key("Long", "y".repeat(400));
-        section.finish(&mut document);
+        document.push(section.0);
         let text = document.to_string();
         assert!(text.starts_with("[A]\r\nName=Groesse\r\n\r\n; word word"));
         assert!(text.is_ascii());

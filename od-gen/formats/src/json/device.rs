@@ -1,8 +1,10 @@
 //! Devices: objects, entries, PDOs.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use od_spec::model::{
-    self, AnyError, Author, Dictionary, DynamicChannel, Entry, Index, Mapped, Object, Pdo, PdoTarget, Real,
-    Value,
+    self, AnyError, Author, Dictionary, DynamicChannel, Entry, Further, Index, KeyValue, Mapped, Object, Pdo,
+    PdoTarget, Real, Value,
 };
 use od_spec::wording::{Notation, Wording};
 use serde::{Serialize, Serializer};
@@ -36,6 +38,8 @@ pub(super) struct DeviceView<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     any_error: Option<AnyErrorView<'a>>,
     file: Json,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    further: Option<Json>,
     objects: Objects<'a>,
     pdos: Vec<Json>,
 }
@@ -70,10 +74,41 @@ impl<'a> DeviceView<'a> {
                 "version": file.version,
                 "revision": file.revision,
             }),
+            further: device
+                .further
+                .as_deref()
+                .filter(|further| **further != Further::default())
+                .map(further_view),
             objects: Objects(device),
             pdos: device.pdos.iter().map(pdo_view).collect(),
         }
     }
+}
+
+/// What an EDS or DCF says in its own words.
+fn further_view(further: &Further) -> Json {
+    let values = |keys: &[KeyValue]| {
+        keys.iter().map(|one| (one.key.clone(), one.value.clone().into())).collect::<serde_json::Map<_, _>>()
+    };
+    let indices = |indices: &BTreeSet<Index>| indices.iter().copied().map(index).collect::<Vec<_>>();
+    let keys = further.keys.iter().map(|(name, keys)| (name.as_str(), values(keys)));
+    let sections = further.all_sections().map(|section| (section.name.as_str(), values(&section.keys)));
+    let modules = further.modules.iter().map(|(number, module)| {
+        json!({
+            "number": number,
+            "product-name": module.product_name,
+            "order-code": module.order_code,
+            "brings": indices(&module.brings),
+            "extends": indices(&module.extends),
+        })
+    });
+    json!({
+        "comments": further.comments,
+        "keys": keys.collect::<BTreeMap<_, _>>(),
+        "sections": sections.collect::<BTreeMap<_, _>>(),
+        "modules": modules.collect::<Vec<_>>(),
+        "connected": further.connected,
+    })
 }
 
 #[derive(Serialize)]

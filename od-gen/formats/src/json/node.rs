@@ -1,5 +1,7 @@
 //! The node of a DCF: its place in a network, its values, and what else belongs to it.
 
+use std::collections::BTreeMap;
+
 use od_spec::model::Dictionary;
 use od_spec::{Commissioning, Denoted, DomainFiles};
 use serde::Serialize;
@@ -17,9 +19,17 @@ pub(super) struct NodeView<'a> {
     net_name: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     serial_number: Option<u32>,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    manager: bool,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    reference: &'a str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    net_reference: &'a str,
     values: Vec<ValueView>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     denotations: Vec<DenotationView<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    references: Vec<DenotationView<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     files: Vec<FilesView<'a>>,
 }
@@ -54,11 +64,14 @@ impl<'a> NodeView<'a> {
             let entry = device.entry(*id)?;
             Some(ValueView { entry: entry_id(*id), value: device::value(id.index, entry, value) })
         });
-        let denotations = node.denotations.iter().map(|(Denoted { index: at, sub }, name)| DenotationView {
-            index: index(*at),
-            sub: sub.map(|sub| sub.0),
-            name,
-        });
+        let texts = |texts: &'a BTreeMap<Denoted, String>| {
+            let views = texts.iter().map(|(Denoted { index: at, sub }, name)| DenotationView {
+                index: index(*at),
+                sub: sub.map(|sub| sub.0),
+                name,
+            });
+            views.collect()
+        };
         let files = node.files.iter().map(|(id, DomainFiles { upload, download, .. })| FilesView {
             entry: entry_id(*id),
             upload: upload.as_deref(),
@@ -71,8 +84,12 @@ impl<'a> NodeView<'a> {
             net_number: node.net_number,
             net_name: &node.net_name,
             serial_number: node.serial_number,
+            manager: node.manager,
+            reference: &node.reference,
+            net_reference: &node.net_reference,
             values: values.collect(),
-            denotations: denotations.collect(),
+            denotations: texts(&node.denotations),
+            references: texts(&node.references),
             files: files.collect(),
         }
     }

@@ -45,7 +45,7 @@ fn commissioning(node: &Commissioning) -> Element {
         .with("actualBaudRate", bit_rate(node.bit_rate))
         .with("networkNumber", node.net_number)
         .with("networkName", &node.net_name)
-        .with("CANopenManager", false)
+        .with("CANopenManager", node.manager)
 }
 
 fn bit_rate(kbit: u16) -> String {

@@ -49,8 +49,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let mut differences = Vec::new();
     for ((kind, objects), bit) in KINDS.iter().zip(FIRST_BIT..) {
         let is_told = device_type >> bit & 1 == 1;
-        let first =
-            objects.iter().copied().map(Index).find(|index| subject.device.objects.contains_key(index));
+        let mut objects = objects.iter().copied().map(Index);
+        // Whether a bus coupler has them depends on its modules.
+        if objects.clone().any(|index| subject.device.is_of_modules(index)) {
+            continue;
+        }
+        let first = objects.find(|index| subject.device.objects.contains_key(index));
         match first {
             Some(index) if !is_told => differences.push(format!("no {kind}, and there is {index}")),
             None if is_told => differences.push(format!("{kind}, and there are none")),

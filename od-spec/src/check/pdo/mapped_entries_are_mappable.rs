@@ -50,6 +50,10 @@ fn finding(
     let at = parameter.id;
     let object = subject.device.objects.get(&id.index);
     let Some((object, entry)) = object.and_then(|object| Some((object, object.entry(id.sub)?))) else {
+        // A bus coupler may map what comes with modules (CiA 306 6.5): it maps as much as is there.
+        if subject.device.further.as_ref().is_some_and(|further| !further.modules.is_empty()) {
+            return None;
+        }
         let message = format!("{at}: there is no entry {id}");
         let help = "map an entry of the device; bits 31..16: index, 15..8: sub-index, 7..0: length in bits";
         return Some(parameter.finding(CODE, message).help(help));

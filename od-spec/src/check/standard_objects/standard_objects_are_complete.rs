@@ -34,7 +34,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         else {
             continue;
         };
-        let problems = [missing(object, defined), unknown(object), gap(object)];
+        // What modules bring is there with them.
+        let missing = missing(object, defined).filter(|_| !device.is_of_modules(object.index));
+        let problems = [missing, unknown(object), gap(object)];
         for (message, help) in problems.into_iter().flatten() {
             findings.push_each(subject.object_finding(CODE, object, message).help(help));
         }

@@ -27,7 +27,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         // That a fixed mapping maps nothing is said of the PDO.
         let is_fixed_mapping = object.role() == Role::PdoMapping
             && object.entries.iter().all(|entry| !entry.access.is_writable());
-        if object.counted().next().is_none() && !is_fixed_mapping {
+        // Modules bring the elements of a bus coupler.
+        let is_of_modules = subject.device.is_of_modules(object.index);
+        if object.counted().next().is_none() && !is_fixed_mapping && !is_of_modules {
             let message = format!("{} has no entry beside sub-index 0", object.index);
             findings.push(
                 subject

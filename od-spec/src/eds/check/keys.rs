@@ -81,6 +81,15 @@ const OBJECT: &[&str] = &[
     "SRDOMapping",
     "InvertedSRAD",
 ];
+/// Keys that the model has no place for.
+pub(in crate::eds) const UNREAD: [&str; 6] = [
+    "SRDOMapping",
+    "InvertedSRAD",
+    "CANopenSafetySupported",
+    "NG_Slave",
+    "NG_Master",
+    "NrOfNG_MonitoredNodes",
+];
 const EXTENSION: &[&str] = &["Count", "ObjExtend"];
 const MODULE_INFO: &[&str] = &["ProductName", "ProductVersion", "ProductRevision", "OrderCode"];
 

@@ -27,6 +27,7 @@ use crate::eds::view::View;
 pub use commissioning::settings_belong_to_a_dcf::CODE as SETTINGS_IN_EDS;
 pub(crate) use lines::nothing_stands_before_the_text::CODE as BYTE_ORDER_MARK;
 pub use lists::entries_are_indices::CODE as NO_INDEX;
+pub use modules::connected_modules_are_supported::CODE as UNKNOWN_MODULE;
 pub use objects::links_have_an_object::CODE as LINKS_OF_NOTHING;
 pub(crate) use rule::FormatRule;
 

@@ -11,6 +11,7 @@ mod device;
 mod editor;
 mod entry;
 mod form;
+mod further;
 mod implicit_pdos;
 mod links;
 mod modules;
@@ -18,7 +19,6 @@ mod node;
 mod node_texts;
 mod objects;
 mod shape;
-mod unread;
 mod value;
 mod words;
 
@@ -26,7 +26,12 @@ use super::view::View;
 use crate::ast::{DeviceDecl, ObjectDecl, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::limits::{ENTRIES_OF_DEVICE, Room};
+use crate::model::{Further, Index};
 use crate::source::{Span, Spanned};
+use crate::wording::FileFormat;
+use std::sync::Arc;
+
+use further::KeysBySection;
 
 pub(crate) use form::{Form, StandardTypes};
 pub(crate) use node::{FileUse, NodeDecl};
@@ -35,6 +40,8 @@ pub(crate) use node::{FileUse, NodeDecl};
 pub(crate) struct Read {
     /// The device, as a specification would describe it.
     pub spec: Spec,
+    /// What it says beside that.
+    pub further: Option<Arc<Further>>,
     /// Of a DCF: the node.
     pub node: Option<NodeDecl>,
 }
@@ -48,8 +55,11 @@ pub(crate) fn read(
 ) -> Read {
     let mut node = view.is_dcf.then(|| node::read(view));
     let mut meanings = comments::Meanings::default();
-    let objects = objects(view, node.as_mut(), &mut meanings, standard, diagnostics);
-    unread::tell(view, diagnostics);
+    let (objects, of_modules) = objects(view, node.as_mut(), &mut meanings, standard, diagnostics);
+    let indices: Vec<Index> = objects.iter().map(|object| object.index.value).collect();
+    // An XDD has no place for such keys.
+    let is_eds = view.facts.format == FileFormat::Eds;
+    let further = is_eds.then(|| Arc::new(further::read(view, &indices, of_modules)));
     let (units, types) = meanings.into_declarations();
     let device = DeviceDecl {
         dynamic_channels: channels::read(view, diagnostics),
@@ -84,17 +94,17 @@ pub(crate) fn read(
         sections: Vec::new(),
         front_end: crate::ast::FrontEnd::Eds,
     };
-    Read { spec, node }
+    Read { spec, further, node }
 }
 
-/// All objects of a file, by index.
+/// All objects of a file, by index, and what stands at those of modules beyond their facts.
 fn objects(
     view: &View<'_>,
     node: Option<&mut NodeDecl>,
     meanings: &mut comments::Meanings,
     standard: StandardTypes,
     diagnostics: &mut Diagnostics,
-) -> Vec<ObjectDecl> {
+) -> (Vec<ObjectDecl>, KeysBySection) {
     let room = Some(Room::new(ENTRIES_OF_DEVICE));
     let format = view.facts.format;
     let mut context = entry::Context { node, meanings, diagnostics, room, format, view, standard };
@@ -104,10 +114,10 @@ fn objects(
     objects.extend(described.filter_map(|(index, part)| objects::object(*index, part, &mut context)));
     context.diagnostics.now_about(None);
     implicit_pdos::add(view, &mut objects);
-    modules::add(view, &mut objects, &mut context);
+    let of_modules = modules::add(view, &mut objects, &mut context);
     context.diagnostics.now_about(None);
     objects.sort_by_key(|object| object.index.value);
-    objects
+    (objects, of_modules)
 }
 
 /// Something that is right, and that a dictionary has no place for.

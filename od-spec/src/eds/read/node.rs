@@ -43,10 +43,18 @@ pub(crate) struct NodeDecl {
     pub net_name: Option<String>,
     /// Serial number for LSS; 0 is none.
     pub serial_number: Option<u32>,
+    /// Whether it is the CANopen manager.
+    pub manager: bool,
+    /// Reference designation of the node.
+    pub reference: Option<String>,
+    /// Reference designation of the network.
+    pub net_reference: Option<String>,
     /// Parameter values, as a specification would write them.
     pub values: Vec<(EntryId, Name)>,
     /// Names of objects and entries in the application.
     pub denotations: Vec<(Denoted, Name)>,
+    /// Reference designations of objects and entries.
+    pub references: Vec<(Denoted, Name)>,
     /// Files of DOMAINs.
     pub files: Vec<(EntryId, FileUse, Name)>,
 }
@@ -65,8 +73,12 @@ pub(super) fn read(view: &View<'_>) -> NodeDecl {
         serial_number: number("LSS_SerialNumber")
             .and_then(|number| u32::try_from(number).ok())
             .filter(|number| *number != 0),
+        manager: number("CANopenManager").is_some_and(|flag| flag != 0),
+        reference: text("NodeRefd"),
+        net_reference: text("NetRefd"),
         values: Vec::new(),
         denotations: Vec::new(),
+        references: Vec::new(),
         files: Vec::new(),
     }
 }

@@ -23,6 +23,12 @@ pub(super) fn read(part: &Part<'_>, of: Denoted, data_type: Option<DataType>, co
             None => context.push(no_dcf(name, &context.format.key(Key::Denotation), of)),
         }
     }
+    if let Some(reference) = part.value("ParamRefd") {
+        match context.node.as_deref_mut() {
+            Some(node) => node.references.push((of, owned(reference))),
+            None => context.push(no_dcf(reference, "`ParamRefd`", of)),
+        }
+    }
     for file in FileUse::ALL {
         let Some(path) = part.value(file.key()) else { continue };
         let why = match data_type {
@@ -42,10 +48,6 @@ pub(super) fn read(part: &Part<'_>, of: Denoted, data_type: Option<DataType>, co
             }
             (None, None) => {}
         }
-    }
-    if let Some(text) = part.value("ParamRefd") {
-        let message = format!("`ParamRefd` of {of} is left out");
-        context.push(without_place(codes::NO_PLACE, text.span, message));
     }
 }
 

@@ -5,7 +5,9 @@
 mod channels;
 mod conditions;
 mod editor;
+mod kept;
 mod links;
+mod modules;
 mod node;
 mod own_files;
 mod random;

@@ -123,7 +123,8 @@ fn what_has_no_place_is_said() {
     assert_eq!(said("a.eds", "Denotation=b"), ["`Denotation` of 2000h is left out: this is no DCF"]);
     assert_eq!(said("a.eds", "UploadFile=b"), ["`UploadFile` of 2000h is left out: this is no DCF"]);
     assert_eq!(said("a.dcf", "UploadFile=b"), ["`UploadFile` of 2000h is left out: it is no DOMAIN"]);
-    assert_eq!(said("a.dcf", "ParamRefd=b"), ["`ParamRefd` of 2000h is left out"]);
+    assert_eq!(said("a.eds", "ParamRefd=b"), ["`ParamRefd` of 2000h is left out: this is no DCF"]);
+    assert_eq!(said("a.dcf", "ParamRefd=b"), [""; 0]);
     assert_eq!(said("a.dcf", "Denotation="), [""; 0]);
     let domain = |file: &str| {
         let text = format!("[2000]\nParameterName=a\nObjectType=2\nDownloadFile={file}\n");

@@ -10,10 +10,11 @@ use crate::xdd::{compiled, said};
 
 /// A parameter of a type, with what follows its default.
 fn parameter(uid: &str, access: &str, element: &str, default: &str, properties: &[(&str, &str)]) -> String {
-    let properties: String = properties
+    let properties = properties
         .iter()
         .map(|(name, value)| format!("<property name=\"{name}\" value=\"{value}\"/>"))
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     let default =
         if default.is_empty() { String::new() } else { format!("<defaultValue value=\"{default}\"/>") };
     format!(

@@ -16,7 +16,7 @@ pub const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "settings of a node in an EDS",
-    explanation: "`ParameterValue`, `Denotation` and `[DeviceComissioning]` are settings of one node and belong to a DCF. In an \
+    explanation: "`ParameterValue`, `Denotation`, `[DeviceComissioning]` and `[ConnectedModules]` are settings of one node and belong to a DCF. In an \
         EDS they hide the defaults: python-canopen takes a COB-ID of one node for all of them. An EDS with \
         `[DeviceComissioning]` is read as a DCF; without the section, the settings are left out of everything that is made \
         from the file. Call the file `.dcf`, or remove the settings.",
@@ -50,7 +50,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                     part.value(key).iter().for_each(|value| add(key, value.span));
                 }
             }
-            Topic::Elements(_, ElementList::Value | ElementList::Denotation) => {
+            Topic::Elements(_, ElementList::Value | ElementList::Denotation) | Topic::ConnectedModules => {
                 add(&format!("[{}]", part.name().value), part.place());
             }
             _ => {}

@@ -9,7 +9,8 @@ use crate::eds::view::View;
 
 pub(in crate::eds::check) const RULE: FormatRule = FormatRule { code: CODE, check };
 
-const CODE: &Code = &Code {
+/// The code of the rule.
+pub const CODE: &Code = &Code {
     id: "EDS606",
     severity: Severity::Error,
     foreign: Severity::Error,
