@@ -28,9 +28,10 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             let ModuleTopic::Fixed(index, None) = topic else { continue };
             let extension = module.get(&ModuleTopic::SubExtension(*index));
             // A DCF describes the objects of the modules that are plugged in.
-            let is_plugged_in = view.connected.iter().any(|number| {
-                view.modules.get(number).is_some_and(|module| module.contains_key(topic))
-            });
+            let is_plugged_in = view
+                .connected
+                .iter()
+                .any(|number| view.modules.get(number).is_some_and(|module| module.contains_key(topic)));
             let own = view.objects.get(index).and_then(|object| object.object.as_ref());
             let own = own.filter(|_| !is_plugged_in);
             let (other, message) = match (extension, own) {
