@@ -9,7 +9,7 @@ use od_spec::rule_codes;
 use od_spec::wording::format_value;
 
 use super::emit::Written;
-use super::names::{apart, readable, shortened};
+use super::names::{readable, shortened};
 use super::node::Spot;
 use super::options::Place;
 use super::remarks::Repair;
@@ -68,7 +68,6 @@ impl Draft {
 
     fn mend_fact(&mut self, id: EntryId, fact: Fact, error: &Diagnostic) -> Option<Repair> {
         match (fact, Role::of(id.index)) {
-            (Fact::Name, _) => self.rename_entry(id),
             (Fact::Default, Role::PdoMapping) => self.mend_mapping(id, error),
             (Fact::Type, _) if error.code == rule_codes::MIXED_TYPES => self.make_record(id.index),
             _ => self.drop_fact(id, fact).or_else(|| self.mend_entry(id, error)),
@@ -104,9 +103,6 @@ impl Draft {
             (rule_codes::USELESS_LOCK, Fact::Access),
             (rule_codes::STORED_CONSTANT, Fact::Storage),
         ];
-        if is_about_name(error) {
-            return self.rename_entry(id);
-        }
         let likely =
             LIKELY.iter().find(|(code, _)| *code == error.code).map_or(Fact::Default, |(_, fact)| *fact);
         let repair = [likely].iter().chain(&ORDER).find_map(|fact| self.drop_fact(id, *fact));
@@ -196,9 +192,6 @@ impl Draft {
     }
 
     fn mend_object(&mut self, index: Index, error: &Diagnostic) -> Option<Repair> {
-        if is_about_name(error) {
-            return self.rename_object(index);
-        }
         if error.code == rule_codes::OUTSIDE_AREAS {
             return self.drop_object(index);
         }
@@ -230,9 +223,6 @@ impl Draft {
     }
 
     fn mend_object_fact(&mut self, index: Index, fact: Fact) -> Option<Repair> {
-        if fact == Fact::Name {
-            return self.rename_object(index);
-        }
         let object = self.device.objects.get_mut(&index)?;
         let original = match fact {
             Fact::Identifier => object.identifier.take()?,
@@ -301,29 +291,6 @@ impl Draft {
             number.default = (count > 1).then(|| Value::Integer(i128::from(count) - 1));
         }
         Some(repair(Place::Entry(id), Some(Fact::Default), format!("0x{parameter:08X}"), None))
-    }
-
-    fn rename_entry(&mut self, id: EntryId) -> Option<Repair> {
-        if !self.device.objects.get(&id.index)?.is_structured() {
-            return self.rename_object(id.index);
-        }
-        let entry = self.entry(id)?;
-        let original = std::mem::take(&mut entry.name);
-        entry.name = apart(&original, id.index, Some(id.sub));
-        let now = entry.name.clone();
-        Some(repair(Place::Entry(id), Some(Fact::Name), original, Some(now)))
-    }
-
-    fn rename_object(&mut self, index: Index) -> Option<Repair> {
-        let object = self.device.objects.get_mut(&index)?;
-        let original = std::mem::take(&mut object.name);
-        object.name = apart(&original, index, None);
-        if !object.is_structured() {
-            let name = object.name.clone();
-            object.entries.iter_mut().for_each(|entry| entry.name.clone_from(&name));
-        }
-        let now = object.name.clone();
-        (now != original).then(|| repair(Place::Object(index), Some(Fact::Name), original, Some(now)))
     }
 
     fn make_record(&mut self, index: Index) -> Option<Repair> {
@@ -453,11 +420,6 @@ impl Draft {
         let now = self.system.vendor.name.clone();
         (now != original).then(|| repair(Place::Device, Some(Fact::Name), original, Some(now)))
     }
-}
-
-/// Whether another name puts it right.
-fn is_about_name(error: &Diagnostic) -> bool {
-    [rule_codes::DUPLICATE_NAME, rule_codes::NAME_NOT_FOR_EDS].contains(&error.code)
 }
 
 /// A repair whose reason the message gives.

@@ -33,7 +33,7 @@ mod value;
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
-use od_gen::plan::{Words, decided};
+use od_gen::plan::decided;
 use od_gen::rust::Rust;
 use od_spec::diag::{Diagnostic, Diagnostics, Severity};
 use od_spec::model::{Dictionary, EntryId, Index, System, Value};
@@ -131,23 +131,12 @@ pub fn specification(
     names::settle(&mut draft.device, &mut remarks.repairs);
     // What code needs of it, as it is decided for code made from the EDS itself.
     draft.device = decided(&draft.system, &draft.device, &Rust).into_owned();
-    spell_identifiers(&mut draft.device);
     let (plain, found) = mended(&mut draft, options, &mut remarks)?;
     let not_said = compare::differing(&draft.device, &found);
     left_out.extend(not_said.iter().map(|index| format!("facts about {index} for which there are no keys")));
     let text = short(&draft, &found, options, &remarks).unwrap_or(plain).text;
     let allowed = remarks.allowed.into_keys().collect();
     Ok(Specification { text, repairs: remarks.repairs, allowed, left_out })
-}
-
-/// An identifier of a specification is spelled as one.
-fn spell_identifiers(device: &mut Dictionary) {
-    for object in device.objects.values_mut() {
-        let of_entries = object.entries.iter_mut().map(|entry| &mut entry.identifier);
-        for identifier in of_entries.chain([&mut object.identifier]) {
-            *identifier = identifier.take().map(|name| Words::of(&name).snake());
-        }
-    }
 }
 
 /// Takes out what a specification made of an EDS does not have; tells what that was.

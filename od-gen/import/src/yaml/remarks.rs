@@ -58,20 +58,19 @@ pub(super) struct Remarks {
 }
 
 impl Remarks {
-    /// Allows a rule to be broken, at an object if the finding is about one; `false` where it is no rule's finding, where names have to differ, and where it was
-    /// allowed before and that was not enough.
+    /// Allows a rule to be broken, at an object if the finding is about one; `false` where it is no rule's finding, and where it was allowed
+    /// before and that was not enough.
     pub(super) fn allow(
         &mut self,
         error: &Diagnostic,
         index: Option<Index>,
         before: &BTreeSet<&'static str>,
     ) -> bool {
-        let is_name = error.code == od_spec::rule_codes::DUPLICATE_NAME;
         if before.contains(error.code.id) {
             self.allowed.remove(error.code.id);
             self.of_reading.insert(error.code.id);
         }
-        if is_name || !od_spec::can_be_allowed(error.code) || self.of_reading.contains(error.code.id) {
+        if !od_spec::can_be_allowed(error.code) || self.of_reading.contains(error.code.id) {
             return false;
         }
         let broken = self
