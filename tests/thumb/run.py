@@ -166,6 +166,7 @@ def find_toolchain() -> Toolchain:
     home = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo"))
     short = [f"--remap-path-prefix={ROOT}=.", f"--remap-path-prefix={home / 'registry' / 'src'}=registry"]
     found.environment["PYTHON"] = sys.executable  # for scaled/build.rs
+    found.environment.pop("RUSTC_WORKSPACE_WRAPPER", None)  # clippy compiles with fewer optimisations
     found.environment["CARGO_ENCODED_RUSTFLAGS"] = "\x1f".join(short)
     found.linker = find_linker(found)
     found.environment[f"CARGO_TARGET_{TARGET.upper().replace('-', '_')}_LINKER"] = found.linker

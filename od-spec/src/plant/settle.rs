@@ -51,6 +51,9 @@ impl Plant {
         commissioning.bit_rate = class.own.bit_rate;
         commissioning.values.extend(assigned.values.clone());
         commissioning.unlocked.extend(assigned.unlocked.iter().copied());
+        if let Some(warning) = device.base.as_ref().and_then(|base| base.left_behind(&commissioning)) {
+            diagnostics.push(warning);
+        }
         let on_the_bus = OnTheBus::of(&configured, class.own.node);
         Some(Settled { commissioning, assigned, on_the_bus, diagnostics })
     }

@@ -22,17 +22,26 @@ pub(super) struct Tree<'x> {
 
 /// Reads the text; `None`, with a message, where it is not XML.
 pub(super) fn parse<'t>(file: FileId, text: &'t str, diagnostics: &mut Diagnostics) -> Option<Document<'t>> {
+    parse_up_to(MOST_NODES, file, text, diagnostics)
+}
+
+fn parse_up_to<'t>(
+    most: u32,
+    file: FileId,
+    text: &'t str,
+    diagnostics: &mut Diagnostics,
+) -> Option<Document<'t>> {
     if let Some(start) = overladen(text.as_bytes()) {
         let message = format!("an element has more than {MOST_ATTRIBUTES} attributes");
         let span = Span { file, start: offset(start), end: offset(start + 1) };
         diagnostics.push(Diagnostic::new(codes::TOO_MUCH, span, message).help("is this the right file?"));
         return None;
     }
-    let options = ParsingOptions { allow_dtd: false, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
+    let options = ParsingOptions { allow_dtd: false, nodes_limit: most, ..ParsingOptions::default() };
     match Document::parse_with_options(text, options) {
         Ok(xml) => Some(xml),
         Err(error) => {
-            diagnostics.push(refused(file, text, &error));
+            diagnostics.push(refused(most, file, text, &error));
             None
         }
     }
@@ -66,7 +75,7 @@ fn overladen(text: &[u8]) -> Option<usize> {
     }
 }
 
-fn refused(file: FileId, text: &str, error: &Error) -> Diagnostic {
+fn refused(most: u32, file: FileId, text: &str, error: &Error) -> Diagnostic {
     let place = |start| Span { file, start: offset(start), end: offset(start) };
     match error {
         Error::DtdDetected => {
@@ -76,7 +85,7 @@ fn refused(file: FileId, text: &str, error: &Error) -> Diagnostic {
                 .help("remove it: an XDD needs none")
         }
         Error::NodesLimitReached => {
-            let message = format!("more than {MOST_NODES} elements and texts");
+            let message = format!("more than {most} elements and texts");
             Diagnostic::new(codes::TOO_MUCH, place(0), message).help("is this the right file?")
         }
         error => {
@@ -181,4 +190,21 @@ impl<'x> Tree<'x> {
 /// Sources are smaller than 4 GiB.
 fn offset(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::SourceMap;
+
+    #[test]
+    fn elements_have_a_limit() {
+        let text = "<a><b/><b/></a>";
+        let file = SourceMap::new().add("a.xdd", text);
+        let mut said = Diagnostics::new();
+        assert!(parse_up_to(5, file, text, &mut said).is_some() && said.iter().next().is_none());
+        assert!(parse_up_to(3, file, text, &mut said).is_none());
+        let one = said.iter().next().unwrap();
+        assert_eq!((one.code.id, one.message.as_str()), ("OD0116", "more than 3 elements and texts"));
+    }
 }

@@ -43,13 +43,33 @@ fn map(text: &str) -> Vec<Row> {
     .collect()
 }
 
-fn packages() -> Vec<Value> {
+/// What cargo says, without asking a registry.
+fn cargo(arguments: &[&str]) -> String {
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    let arguments = ["metadata", "--offline", "--no-deps", "--format-version", "1"];
-    let output = Command::new(cargo).args(arguments).current_dir(root()).output().unwrap();
+    let output = Command::new(cargo).args(arguments).arg("--offline").current_dir(root()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let metadata: Value = serde_json::from_slice(&output.stdout).unwrap();
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn packages() -> Vec<Value> {
+    let metadata: Value =
+        serde_json::from_str(&cargo(&["metadata", "--no-deps", "--format-version", "1"])).unwrap();
     metadata["packages"].as_array().unwrap().clone()
+}
+
+/// Where a crate had more features for the tests than for the programs, `cargo xtask` and `cargo test` would compile it and
+/// everything above it one after the other.
+#[test]
+fn tests_ask_for_no_features_that_the_programs_have_not() {
+    let features = |edges: &str| {
+        let arguments =
+            ["tree", "--workspace", "--prefix", "none", "--format", "{p} with {f}", "--edges", edges];
+        let text = cargo(&arguments);
+        text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect::<BTreeSet<_>>()
+    };
+    let (programs, tests) = (features("normal,build"), features("normal,build,dev"));
+    assert!(programs.len() > 100, "{programs:?}");
+    assert_eq!(programs.difference(&tests).collect::<Vec<_>>(), [""; 0]);
 }
 
 #[test]

@@ -142,6 +142,13 @@ fn a_cob_id_without_a_formula_is_reported() {
         let (_, _, wrong) = run(&scratch, arguments);
         assert!(wrong.contains(warning), "{arguments:?}: {wrong}");
     }
+    scratch.file(
+        "plant.yaml",
+        "od-plant: 1\ntitle: Pumps\ndevices: {pump: pump.dcf}\ntypes:\n  station: {bit-rate: 500, positions: {A: {pump: 9}}}\n\
+         sites:\n  Hall: {type: station, machines: {1: {}}}\n",
+    );
+    let (_, _, wrong) = run(&scratch, &["plant", "check", "plant.yaml"]);
+    assert!(wrong.contains(warning), "{wrong}");
     // Without `[DeviceComissioning]`, the values show which node they were for.
     scratch.file("nobody.dcf", without_node());
     let (_, _, wrong) = run(&scratch, &["dbc", "nobody.dcf", "--node", "9"]);

@@ -31,13 +31,20 @@ const FEATURES: [(&str, &[&str]); 3] = [
 pub(crate) fn check(runner: &mut Runner) -> Result<(), Failure> {
     runner.cargo(&["fmt", "--all", "--check"])?;
     format_of_rules(runner)?;
-    clippy(runner, &["--workspace", "--all-targets"])?;
-    clippy(runner, &["--package", "firmware-glue", "--all-targets", "--all-features"])?;
+    if !clippy_compiles() {
+        clippy(runner, &["--workspace", "--all-targets"])?;
+        clippy(runner, &["--package", "firmware-glue", "--all-targets", "--all-features"])?;
+    }
     for package in ["firmware-glue", "od-gen"] {
         clippy(runner, &["--package", package, "--lib", "--no-default-features"])?;
     }
     runner.cargo(&["check", "--quiet", "--package", "od-generated", "--features", "defmt"])?;
     firmware(runner)
+}
+
+/// Whether every compilation is one by clippy, as `.ci/run` asks for: a finding has stopped it then.
+fn clippy_compiles() -> bool {
+    std::env::var_os("RUSTC_WORKSPACE_WRAPPER").is_some_and(|wrapper| wrapper == "clippy-driver")
 }
 
 /// The documentation of every item, also of private ones, without a warning.

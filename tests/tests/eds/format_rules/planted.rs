@@ -244,6 +244,7 @@ fn facts(text: &str) -> Vec<(String, Vec<(String, String)>)> {
 fn a_planted_fault_is_found_at_its_line_and_mended() {
     let name = "pmc.eds";
     let clean = std::fs::read_to_string(root().join("generated/eds").join(name)).unwrap();
+    assert!(fix(name, clean.as_bytes()).unwrap().changes.is_empty());
     let said_before = facts(&clean);
     let mut wrong = Vec::new();
     for (number, fault) in LINES.iter().chain(INFORMATION).chain(LISTS).chain(MEANING).enumerate() {
@@ -276,8 +277,10 @@ fn a_planted_fault_is_found_at_its_line_and_mended() {
             let differs = difference(name, text.as_bytes(), &fixed);
             wrong.extend(differs.map(|differs| format!("{what}: {differs}")));
         }
-        let again = fix(name, &fixed.to_bytes()).unwrap();
-        assert!(again.changes.is_empty(), "{what}: {:?}", again.changes);
+        if !fixed.changes.is_empty() && fixed.text() != clean {
+            let again = fix(name, &fixed.to_bytes()).unwrap();
+            assert!(again.changes.is_empty(), "{what}: {:?}", again.changes);
+        }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -24,11 +24,9 @@ fn a_file_that_is_cut_off_is_no_xml_and_the_place_is_told() {
 }
 
 #[test]
-fn depth_and_size_have_limits_and_a_document_type_is_refused() {
+fn depth_has_a_limit_and_a_document_type_is_refused() {
     let deep = format!("{}{}", "<a>".repeat(200_000), "</a>".repeat(200_000));
     assert!(said("deep.xdd", deep).contains("XDD103"));
-    let long = format!("<a>{}</a>", "<b/>".repeat(13_000_000));
-    assert!(said("long.xdd", long).contains("error[OD0116]"));
     let bomb =
         "<?xml version=\"1.0\"?>\n<!DOCTYPE a [<!ENTITY b \"bbbb\"><!ENTITY c \"&b;&b;\">]>\n<a>&c;</a>";
     assert_eq!(

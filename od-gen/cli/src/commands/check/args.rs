@@ -39,7 +39,7 @@ pub(crate) struct CheckArgs {
     #[arg(long)]
     pub notes: bool,
 
-    /// Show every place of a finding that an EDS or DCF has in many places, not only the first three
+    /// Show every place of a finding that an EDS or DCF has in many places, up to 1,000, not only the first three
     #[arg(long)]
     pub all: bool,
 
