@@ -55,7 +55,9 @@ pub(super) fn resolve(
                     communication_object(&pdo, one, &described),
                     mapping_object(&pdo, one, &described, &map),
                 ];
-                made.iter().for_each(|object| check_identifiers(object, diagnostics));
+                for object in &made {
+                    check_identifiers(object, diagnostics);
+                }
                 parameters.extend(made);
                 pdos.push(pdo);
             }
