@@ -26,8 +26,10 @@ fn from_an_eds_to_documents_and_rust_in_four_commands() {
         {
             assert!(scratch.0.join("out").join(&made).is_file(), "{made}: {}", stdout(&built));
         }
+        // Names are kept as the maker gave them, also where two are equal.
+        let made = format!("out/eds/{name}.eds");
         let again =
-            odgen(&scratch.0, &["check", &format!("out/eds/{name}.eds"), "--strict", "--format", "short"]);
+            odgen(&scratch.0, &["check", &made, "--strict", "--format", "short", "--allow", "OD0303"]);
         assert_eq!(code(&again), 0, "{}", stderr(&again));
     }
 }

@@ -170,7 +170,7 @@ fn a_reference_by_identifier_stays_when_the_name_changes() {
             other => panic!("{other:?}"),
         }
     };
-    assert_eq!(at("lower, list"), (By::Identifier, Some("2001h.0".to_owned())));
+    assert_eq!(at("lower, list"), (By::Identifier, Some("2001h".to_owned())));
     assert_eq!(at("list.element_2"), (By::Name, Some("2002h.2".to_owned())));
     assert_eq!(at("element_2]"), (By::Identifier, Some("2002h.2".to_owned())));
     let lower = read.names.definitions().find(|(_, one)| {
