@@ -7,6 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::{FileId, SourceMap};
+use od_spec::xdd::Disabled;
 use od_spec::{Compiled, Loader, Strictness, add_source, compile_as, may_be_specification, part_of};
 
 /// A little more than the compiler accepts, so that larger files are refused without being read whole.
@@ -17,6 +18,8 @@ const READ_LIMIT: u64 = (64 << 20) + 1;
 pub struct FileLoader {
     /// Files that were read, in order.
     pub read: Vec<PathBuf>,
+    /// What becomes of objects of an XDD that are switched off.
+    pub disabled: Disabled,
 }
 
 impl Loader for FileLoader {
@@ -25,6 +28,10 @@ impl Loader for FileLoader {
         let bytes = read_file(&path)?;
         self.read.push(path);
         Ok(bytes)
+    }
+
+    fn disabled(&self) -> Disabled {
+        self.disabled
     }
 }
 

@@ -24,7 +24,7 @@ use crate::source::{FileId, SourceFile, SourceMap, Span, Spanned};
 use crate::standard;
 use crate::visible::straight;
 use crate::wording::FileFormat;
-use crate::xdd;
+use crate::xdd::{self, Disabled};
 use crate::yaml;
 use crate::yaml::gaps;
 
@@ -76,7 +76,7 @@ pub fn compile_as(
     let file = sources.file(root);
     if xdd::is_xdd(file.name(), file.text()) {
         let rules = check::Rules { format: FileFormat::Xdd, ..standard::rules(&check::RULES) };
-        compile_xdd(rules, sources, root, strictness)
+        compile_xdd(rules, sources, root, strictness, loader.disabled())
     } else if eds::is_eds(file.name(), file.text()) {
         compile_eds(standard::rules(&check::RULES), sources, root, strictness)
     } else if let Some(diagnostic) = no_specification(file, sources.whole(root)) {
@@ -150,11 +150,12 @@ fn compile_xdd(
     sources: &SourceMap,
     root: FileId,
     strictness: Strictness,
+    disabled: Disabled,
 ) -> Compiled {
     let mut diagnostics = Diagnostics::new();
     let file = sources.file(root);
     let text = straight(file.text());
-    let translated = xdd::translate(root, &text, standard::data_type, &mut diagnostics);
+    let translated = xdd::translate(root, &text, standard::data_type, disabled, &mut diagnostics);
     let Some(xdd::Translated { document, texts }) = translated else {
         return Compiled::refused(diagnostics);
     };
@@ -170,7 +171,13 @@ fn compile_xdd(
 
 /// Without the feature, what an XDD is can be told, and no more.
 #[cfg(not(feature = "xdd"))]
-fn compile_xdd(_: check::Rules<'_>, sources: &SourceMap, root: FileId, _: Strictness) -> Compiled {
+fn compile_xdd(
+    _: check::Rules<'_>,
+    sources: &SourceMap,
+    root: FileId,
+    _: Strictness,
+    _: Disabled,
+) -> Compiled {
     let mut diagnostics = Diagnostics::new();
     let message = format!(
         "`{}` is an XDD, which this program was built without a reader for",

@@ -7,18 +7,24 @@ use crate::diag::{Diagnostic, Label, codes, shorten};
 use crate::encoding::Encoding;
 use crate::keys::{PART_OF, SPEC_VERSION};
 use crate::source::{FileId, SourceMap, Span, Spanned};
+use crate::xdd::Disabled;
 use crate::{eds, encoding, other_bus, xdd};
 
 /// Largest file that is read, in bytes.
 const LARGEST_FILE: usize = 64 << 20;
 
-/// Gives the compiler the files that a specification names by path: libraries and parts.
+/// Gives the compiler the files that a specification names by path, libraries and parts, and says what to take of them.
 pub trait Loader {
     /// The bytes of `path`, which stands in the file named `from`.
     ///
     /// # Errors
     /// Why there are none, in a few words such as "no such file".
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String>;
+
+    /// What becomes of objects of an XDD that are switched off.
+    fn disabled(&self) -> Disabled {
+        Disabled::LeftOut
+    }
 }
 
 /// A loader without files: only the built-in libraries can be used.

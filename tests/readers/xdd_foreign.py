@@ -77,8 +77,13 @@ def compare(root: ET.Element, device: dict[str, Any], said: str) -> tuple[Counte
 
     for node in (one for one in root.iter() if local(one) == "CANopenObject"):
         index = (node.get("index") or "").upper()
-        counts["objects"] += 1
         found = objects.get(index)
+        if is_disabled(node, parameters):
+            counts["objects that are switched off"] += 1
+            if found is not None:
+                problems.append(f"{index} is switched off, and there all the same")
+            continue
+        counts["objects"] += 1
         if found is None:
             problems.append(f"{index} has not arrived")
             continue
@@ -99,6 +104,14 @@ def compare(root: ET.Element, device: dict[str, Any], said: str) -> tuple[Counte
             for what, value, expected in stated(node, parameters, types, entries[0]):
                 that(f"{index}h", what, value, expected)
     return counts, problems
+
+
+def is_disabled(node: ET.Element, parameters: dict[str | None, ET.Element]) -> bool:
+    """Whether CANopenEditor has switched an object off."""
+    parameter = parameters.get(node.get("uniqueIDRef"))
+    properties = [one for of in (node, parameter) if of is not None for one in of if local(one) == "property"]
+    stated = {one.get("name"): one.get("value") for one in properties}
+    return stated.get("CO_disabled", node.get("disabled")) == "true"
 
 
 def is_plain(value: Any) -> bool:

@@ -41,7 +41,7 @@ CHILDREN = {
     "struct": "varDeclaration+",
     "varDeclaration": "TYPE",
     "parameterList": "parameter+",
-    "parameter": "label+ description* TYPE defaultValue? allowedValues? unit?",
+    "parameter": "label+ description* TYPE defaultValue? allowedValues? unit? property*",
     "allowedValues": "value* range*",
     "value": "label+",
     "range": "minValue maxValue",
@@ -72,7 +72,7 @@ QUALIFIED = {
     "productText", "orderNumber", "version", "DeviceFunction", "capabilities", "characteristicsList", "characteristic",
     "characteristicName", "characteristicContent", "ApplicationProcess", "dataTypeList", "array", "subrange", "struct",
     "varDeclaration", "parameterList", "parameter", "dataTypeIDRef", "defaultValue", "allowedValues", "range", "unit",
-    "CANopenObjectList",
+    "CANopenObjectList", "property",
 }
 HEX4, HEX2, FLAG, NUMBER = "[0-9A-F]{4}", "[0-9A-F]{2}", "true|false", r"\d+"
 ENTRY = {
@@ -101,6 +101,9 @@ ATTRIBUTES: dict[str, dict[str, str]] = {
         "persistent?": FLAG, "multiplier?": r"\d+(\.\d+)?",
     },
     "defaultValue": {"value": "(?s).*"},
+    "property": {
+        "name": "CO_(countLabel|storageGroup|flagsPDO|accessSRDO|stringLengthMin)", "value": r"\w+",
+    },
     "value": {"value": r"-?\d+"},
     "minValue": {"value": r"\S+"},
     "maxValue": {"value": r"\S+"},

@@ -28,6 +28,7 @@ use commands::{
     import, library, lsp, new, node, params, plant, reference, schema, serve, st,
 };
 use messages::{Color, Format};
+use od_spec::xdd::Disabled;
 use report::Report;
 
 /// The work of the command is many small pieces of memory, given back in bulk.
@@ -54,6 +55,10 @@ struct Cli {
     /// Directory whose `*.od.yaml` are taken when no SPEC is named
     #[arg(long = "specs", global = true, default_value = ".", hide_default_value = true, value_name = "DIR")]
     directory: PathBuf,
+
+    /// Take the objects that CANopenEditor switched off in an XDD or XPD, too
+    #[arg(long, global = true)]
+    disabled: bool,
 
     /// Colours in messages
     #[arg(long, global = true, value_enum, default_value_t, value_name = "WHEN")]
@@ -145,7 +150,8 @@ fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(message) => return ExitCode::from(answer(&message)),
     };
-    let report = Report::new(cli.message_format(), cli.color);
+    let disabled = if cli.disabled { Disabled::Taken } else { Disabled::LeftOut };
+    let report = Report::new(cli.message_format(), cli.color, disabled);
     let (format, directory) = (cli.format, cli.directory.as_path());
     let code = match cli.command {
         Command::Build(args) => build::run(&args, directory, &report),

@@ -5,7 +5,7 @@ mod machine;
 use std::path::{Path, PathBuf};
 
 use od_gen::condensed;
-use od_gen::source::{FileLoader, open};
+use od_gen::source::open;
 use od_spec::model::SystemSource;
 use od_spec::plant::{Plant, Settled, plant};
 use od_spec::source::SourceMap;
@@ -30,7 +30,7 @@ pub(crate) struct Read {
 /// Reads a plant and shows what is wrong with it.
 pub(crate) fn read(path: &Path, report: &Report) -> Result<Read, u8> {
     let mut sources = SourceMap::new();
-    let mut loader = FileLoader::default();
+    let mut loader = report.loader();
     let help = "check the path; a plant file begins with `od-plant: 1`";
     let root = open(path, help, &mut sources).map_err(|diagnostic| report.refuse(*diagnostic))?;
     let read = plant(&mut sources, root, &mut loader);

@@ -13,7 +13,7 @@ use od_spec::eds::is_eds;
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 use od_spec::visible::{printable, visible, visible_json};
-use od_spec::xdd::is_xdd;
+use od_spec::xdd::{Disabled, is_xdd};
 use od_spec::{Commissioning, Compiled, NodeOfFile};
 
 use crate::exit::{ERRORS, SUCCESS, USAGE};
@@ -25,6 +25,7 @@ use crate::progress::Audience;
 pub(crate) struct Report {
     format: Format,
     colour: bool,
+    disabled: Disabled,
 }
 
 /// What a command works on.
@@ -60,13 +61,23 @@ impl Used {
 }
 
 impl Report {
-    pub(crate) fn new(format: Format, color: Color) -> Self {
+    pub(crate) fn new(format: Format, color: Color, disabled: Disabled) -> Self {
         let colour = match color {
             Color::Always => true,
             Color::Never => false,
             Color::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
         };
-        Self { format, colour }
+        Self { format, colour, disabled }
+    }
+
+    /// Reads the files of a command.
+    pub(crate) fn loader(&self) -> FileLoader {
+        FileLoader { disabled: self.disabled, ..FileLoader::default() }
+    }
+
+    /// What becomes of objects of an XDD that are switched off.
+    pub(crate) const fn disabled(&self) -> Disabled {
+        self.disabled
     }
 
     /// Who reads the messages.
@@ -132,7 +143,7 @@ impl Report {
     /// [`compile`](Self::compile), with the node of a DCF and the texts that were read.
     pub(crate) fn compile_with_sources(&self, path: &Path) -> Option<(Used, SourceMap)> {
         let mut sources = SourceMap::new();
-        let mut compiled = compile_file(path, &mut sources, &mut FileLoader::default());
+        let mut compiled = compile_file(path, &mut sources, &mut self.loader());
         if let Some(line) = condense(path, &mut compiled) {
             self.note(&line);
         }

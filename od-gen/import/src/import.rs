@@ -3,11 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use od_spec::diag::codes::XDD_LEFT_OUT;
+use od_spec::diag::codes::{XDD_DISABLED, XDD_LEFT_OUT};
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
 use od_spec::eds::codes::{LINKS_OF_NOTHING, MODULES, NO_INDEX, NO_PLACE, OBJECT_LEFT_OUT, UNREAD};
 use od_spec::eds::{Document, Owner};
-use od_spec::model::{Dictionary, ObjectKind, System};
+use od_spec::model::{Dictionary, EditorProperty, EntryId, ObjectKind, Storage, System};
 use od_spec::source::{FileId, SourceMap, Spanned};
 use od_spec::visible::straight;
 use od_spec::wording::{Notation, Wording};
@@ -32,8 +32,8 @@ pub struct Imported {
 
 /// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, links of nothing, values without a
 /// place.
-const WITHOUT_PLACE: [&Code; 6] =
-    [OBJECT_LEFT_OUT, MODULES, LINKS_OF_NOTHING, NO_PLACE, UNREAD, XDD_LEFT_OUT];
+const WITHOUT_PLACE: [&Code; 7] =
+    [OBJECT_LEFT_OUT, MODULES, LINKS_OF_NOTHING, NO_PLACE, UNREAD, XDD_DISABLED, XDD_LEFT_OUT];
 
 /// Writes the specification of a compiled EDS or DCF. `None` where there is no model.
 ///
@@ -50,10 +50,13 @@ pub fn import(
     // As it was compiled: a specification may not hold what turns text.
     let text = straight(file.text());
     // What an XDD says beside its objects is no comment.
-    let document = if is_xdd(file.name(), &text) { Document::default() } else { Document::scan(root, &text) };
+    let is_xdd = is_xdd(file.name(), &text);
+    let document = if is_xdd { Document::default() } else { Document::scan(root, &text) };
     let mut options =
         Options { head: vec![format!("Made from {}.", base_name(file.name()))], ..Options::default() };
+    let properties = if is_xdd { properties(device) } else { Vec::new() };
     let remarks = document.remarks().into_iter().map(|remark| (place(device, remark.owner), remark.text));
+    let remarks = remarks.chain(properties.iter().map(|(place, text)| (Some(*place), text.as_str())));
     let mut without_place = Vec::new();
     let mut remarks: Vec<_> = remarks.collect();
     for extra in document.extras() {
@@ -64,6 +67,7 @@ pub fn import(
             (None, None) => {}
         }
     }
+    remarks.retain(|(place, text)| !place.is_some_and(|place| is_said_by_stored(device, place, text)));
     let usual = usual(&remarks, device);
     for (place, text) in remarks {
         match place {
@@ -100,6 +104,36 @@ pub fn import(
         allowed: written.allowed,
         without_place: count + written.left_out.len(),
     }))
+}
+
+/// What CANopenEditor keeps in the properties of an XDD, where a specification has no key for it.
+fn properties(device: &Dictionary) -> Vec<(Place, String)> {
+    let mut texts = Vec::new();
+    for object in device.objects.values() {
+        let Some(notes) = &object.editor else { continue };
+        let of_object = notes.of_object().map(|one| (Owner::Object(object.index), one));
+        let of_entries = object.entries.iter().filter_map(|entry| {
+            let id = EntryId { index: object.index, sub: entry.sub };
+            Some((Owner::Entry(id), notes.of_entry(entry.sub)?))
+        });
+        for (owner, (property, value)) in of_object.chain(of_entries) {
+            texts.extend(place(device, owner).map(|place| (place, format!("{}={value}", property.name()))));
+        }
+    }
+    texts
+}
+
+/// Whether a text says the group of an object, and `stored:` of its entries says the same.
+fn is_said_by_stored(device: &Dictionary, place: Place, text: &str) -> bool {
+    let Place::Object(index) = place else { return false };
+    let Some(object) = device.objects.get(&index).filter(|object| object.is_stored()) else { return false };
+    let group = object.editor.as_ref().and_then(|notes| notes.storage_group.as_deref());
+    let is_of_standard =
+        |group: &&str| matches!(Storage::of_group(group), Storage::Communication | Storage::Application);
+    let names = [EditorProperty::StorageGroup.key(), EditorProperty::StorageGroup.name()];
+    group
+        .filter(is_of_standard)
+        .is_some_and(|group| names.into_iter().any(|name| text == format!("{name}={group}")))
 }
 
 /// What stands at most of the entries, such as a maker's key that always has the same value, and at how many: it is said once.

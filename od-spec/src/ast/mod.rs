@@ -15,8 +15,8 @@ use crate::keys::{
     vendor_keys,
 };
 use crate::model::{
-    Access, BitPattern, BitUsage, ByDevice, Date, DateTime, Direction, Edge, ErratumKind, ErrorKind, Index,
-    Outside, ProseKind, Ratio, Rounding, Series, SubIndex, Text,
+    Access, BitPattern, BitUsage, ByDevice, Date, DateTime, Direction, Edge, EditorNotes, ErratumKind,
+    ErrorKind, Index, Outside, ProseKind, Ratio, Rounding, Series, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 
@@ -332,12 +332,13 @@ pub(crate) struct ObjectDecl {
     pub sub0: Option<Box<EntryDecl>>,
     pub omit: Vec<Spanned<i128>>,
     pub links: Option<Vec<Spanned<Index>>>,
+    /// What CANopenEditor keeps of it; no specification has it.
+    pub editor: Option<Box<EditorNotes>>,
     pub entry: EntryDecl,
 }
 
 impl ObjectDecl {
     /// The entries that are written one by one, with their sub-indices; of a VAR there is none.
-    #[cfg(feature = "xdd")]
     pub(crate) fn entries_mut(&mut self) -> impl Iterator<Item = (SubIndex, &mut EntryDecl)> {
         let elements = self.array.iter_mut().flat_map(|array| &mut array.elements);
         let members = self.record.iter_mut().flat_map(|record| &mut record.members);

@@ -209,6 +209,7 @@ fn object(
         sub0: r.keyed("sub0").map(|(key, child)| Box::new(entry(child, &keys::SUB0, key, diagnostics))),
         omit: r.integers("omit"),
         links: r.optional_indices("links"),
+        editor: None,
         entry: entry(r, &keys::OBJECT, index.span, diagnostics),
     };
     // An object that is like something else lacks nothing of its own.

@@ -314,6 +314,12 @@ codes! {
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\" PDOmapping=\"RPDO\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\" PDOmapping=\"TPDO\"/>\n</CANopenObjectList>"
         )]
+    XDD_DISABLED Warning "XDD208" "objects that are switched off":
+        "CANopenEditor can switch objects off (`CO_disabled`): neither its EDS nor its code has them, so they are no objects of the device. `--disabled` takes them all the same."
+        [Example::xdd(
+            "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/><property name=\"CO_disabled\" value=\"true\"/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>",
+            "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>",
+        )]
     XDD_LEFT_OUT Note "XDD207" "something that has no place":
         "A dictionary has no place for it, or it can be understood in more than one way: what other programs keep in `property`, modules, templates, and units whose raw values count from an `offset`."
         [Example::xdd(

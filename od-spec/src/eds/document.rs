@@ -249,6 +249,11 @@ impl Section {
     pub fn push(&mut self, key: &str, value: &str) {
         self.lines.push(Line::new_key_value(key, value));
     }
+
+    /// Adds what only programs read that know it: a comment of a key and its value, `;StorageLocation=PERSIST_COMM`.
+    pub fn push_remark(&mut self, key: &str, value: &str) {
+        self.lines.push(Line::new_remark(key, value));
+    }
 }
 
 #[cfg(test)]

@@ -88,6 +88,11 @@ impl<'t> Line<'t> {
         Self::written(joined(["; ", text, ""]), Content::Comment)
     }
 
+    /// A comment that programs read which know its key: without a blank behind the sign.
+    pub(super) fn new_remark(key: &str, value: &str) -> Self {
+        Self::written(format!(";{key}={value}"), Content::Comment)
+    }
+
     /// The line that begins a section.
     pub(super) fn new_header(name: &str) -> Self {
         let text = joined(["[", name, "]"]);

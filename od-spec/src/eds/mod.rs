@@ -9,6 +9,7 @@ pub(crate) mod coded;
 pub mod codes;
 pub(crate) mod dates;
 mod document;
+mod editor;
 mod edits;
 pub(crate) mod example;
 mod extras;

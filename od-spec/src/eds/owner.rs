@@ -1,6 +1,7 @@
 //! Which object or entry a place of a document belongs to, and which of its comments say nothing about one.
 
 use super::document::{Document, SectionRef};
+use super::editor;
 use super::line::LineKind;
 use super::names::{Topic, topic};
 use crate::model::{EntryId, Index, SubIndex};
@@ -77,13 +78,12 @@ impl Document<'_> {
             let after_name = section.comment_after_name().filter(|text| own == Owner::File || is_code(text));
             remarks.extend(after_name.map(|text| Remark { owner: own, text }));
             let body = section.body();
-            let is_key = |line: &super::Line<'_>| !matches!(line.kind(), LineKind::Blank | LineKind::Comment);
-            let keys_end = body.iter().rposition(is_key).map_or(0, |last| last + 1);
-            for text in body[..keys_end].iter().filter_map(super::Line::comment) {
+            let inside = editor::own_lines(body);
+            for text in inside.iter().filter_map(super::Line::comment) {
                 remarks.push(Remark { owner: own, text });
             }
             let next = sections.get(at + 1).map_or(Owner::File, |next| owner(next.name()));
-            let above = &body[keys_end..];
+            let above = &body[inside.len()..];
             let directly = above.iter().rev().take_while(|line| line.kind() == LineKind::Comment).count();
             let (apart, directly) = above.split_at(above.len() - directly);
             for text in apart.iter().filter_map(super::Line::comment) {

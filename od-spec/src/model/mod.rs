@@ -10,6 +10,7 @@ mod device;
 mod document;
 mod download;
 mod dynamic_channel;
+mod editor;
 mod error_kind;
 mod fact;
 mod flow;
@@ -45,6 +46,7 @@ pub use document::{
 };
 pub use download::{NoSuchValue, Write, download};
 pub use dynamic_channel::DynamicChannel;
+pub use editor::{EditorNotes, EditorProperty};
 pub use error_kind::ErrorKind;
 pub use fact::{Author, Departure, Fact, Facts, Part, Statement};
 pub use flow::{Block, Flow, Inflow};

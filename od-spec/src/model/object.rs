@@ -4,9 +4,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::{
-    Access, Author, BitErrors, BitField, Category, DataType, Departure, EntryId, Expr, Fact, Facts, Index,
-    NamedType, Outside, PdoMapping, Ratio, Real, Rounding, Statement, Storage, SubIndex, Text, TypeKind,
-    Unit, Value,
+    Access, Author, BitErrors, BitField, Category, DataType, Departure, EditorNotes, EntryId, Expr, Fact,
+    Facts, Index, NamedType, Outside, PdoMapping, Ratio, Real, Rounding, Statement, Storage, SubIndex, Text,
+    TypeKind, Unit, Value,
 };
 use crate::ascii::name_in_ascii;
 use crate::source::{Span, Spanned};
@@ -92,6 +92,8 @@ pub struct Object {
     pub since: Option<String>,
     /// Objects that belong together with it, as they are written.
     pub links: Vec<Spanned<Index>>,
+    /// What CANopenEditor keeps of it, if the file is from there.
+    pub editor: Option<Box<EditorNotes>>,
     /// Danger that comes from it as a whole; that of a VAR stands at its entry, too.
     pub warning: Text,
     /// Meaning.

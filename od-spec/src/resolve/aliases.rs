@@ -158,6 +158,7 @@ fn alias(
         category: decl.entry.category.map(|category| category.value),
         since: decl.entry.since.as_ref().map(|since| since.value.clone()),
         links: decl.links.clone().unwrap_or_default(),
+        editor: decl.editor.clone(),
         warning: entry.warning.clone(),
         about: words(&decl.entry.about),
         entries: vec![entry],

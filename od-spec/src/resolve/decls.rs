@@ -270,6 +270,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
         sub0,
         omit: over.omit.clone(),
         links: over.links.clone().or_else(|| below.links.clone()),
+        editor: over.editor.clone(),
         entry: over.entry.over(&below.entry),
     };
     (merged, departures)

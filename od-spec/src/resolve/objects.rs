@@ -72,6 +72,7 @@ pub(super) fn resolve(
         category: decl.entry.category.map(|category| category.value),
         since: decl.entry.since.as_ref().map(|since| since.value.clone()),
         links: decl.links.clone().unwrap_or_default(),
+        editor: decl.editor.clone(),
         warning: words(&decl.entry.warning),
         about: words(&decl.entry.about),
         entries,

@@ -87,6 +87,7 @@ fn object(
         category: None,
         since: None,
         links: Vec::new(),
+        editor: None,
         warning: Text::default(),
         about: Text::default(),
         entries: parameters

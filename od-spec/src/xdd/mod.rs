@@ -9,6 +9,8 @@ mod access;
 #[cfg(feature = "xdd")]
 mod device;
 #[cfg(feature = "xdd")]
+mod editor;
+#[cfg(feature = "xdd")]
 mod languages;
 #[cfg(feature = "xdd")]
 mod meaning;
@@ -50,6 +52,16 @@ pub(crate) fn is_xdc(name: &str) -> bool {
     crate::eds::ends_with(name, ".xdc")
 }
 
+/// What becomes of objects that CANopenEditor has switched off: its own EDS and code are without them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Disabled {
+    /// They are no objects of the device.
+    #[default]
+    LeftOut,
+    /// They are objects like all others.
+    Taken,
+}
+
 /// An XDD or XDC in the notation of an EDS.
 #[cfg(feature = "xdd")]
 pub(crate) struct Translated {
@@ -65,6 +77,7 @@ pub(crate) fn translate(
     file: FileId,
     text: &str,
     standard: StandardTypes,
+    disabled: Disabled,
     diagnostics: &mut Diagnostics,
 ) -> Option<Translated> {
     let xml = tree::parse(file, text, diagnostics)?;
@@ -86,7 +99,7 @@ pub(crate) fn translate(
         diagnostics,
         room: Room::new(0),
     };
-    objects::write(list, context);
+    objects::write(list, disabled, context);
     tree::say_what_is_left_out(xml, diagnostics);
     Some(Translated { document, texts })
 }

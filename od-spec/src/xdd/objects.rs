@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use roxmltree::Node;
 
+use super::Disabled;
 use super::access;
+use super::editor;
 use super::languages::{Texts, key_of};
 use super::meaning;
 use super::parameters::{Parameter, Parameters};
@@ -33,15 +35,23 @@ pub(super) struct Context<'a, 'x> {
 }
 
 /// Writes the sections of all objects.
-pub(super) fn write<'x>(list: Node<'x, 'x>, mut context: Context<'_, 'x>) {
+pub(super) fn write<'x>(list: Node<'x, 'x>, disabled: Disabled, mut context: Context<'_, 'x>) {
     let mut seen = BTreeSet::new();
+    let mut left_out: Vec<Spanned<Index>> = Vec::new();
     for node in children(list, "CANopenObject") {
         let Some((number, place)) = context.number(node, "index", 0xFFFF) else { continue };
         if !seen.insert(number) {
             context.twice(node, place, &Index(number).to_string());
             continue;
         }
+        if disabled == Disabled::LeftOut && editor::is_disabled(context.tree, node, context.parameters) {
+            left_out.push(Spanned::new(Index(number), place));
+            continue;
+        }
         context.object(node, Index(number), place);
+    }
+    if let Some(warning) = editor::left_out(&left_out) {
+        context.diagnostics.push(warning);
     }
 }
 
@@ -105,6 +115,7 @@ impl<'a, 'x> Context<'a, 'x> {
             Some(ObjectKind::Array | ObjectKind::Record) | None => {}
         }
         self.text("Denotation", self.tree.attribute(node, "denotation"));
+        editor::write(self.document, self.tree, node, parameter);
         for (sub, place, node) in subs {
             self.sub_object(node, EntryId { index, sub: SubIndex(sub) }, place);
         }
@@ -125,6 +136,7 @@ impl<'a, 'x> Context<'a, 'x> {
         let form = if kind == ObjectKind::Domain { Form::Domain } else { Form::of_sub(id) };
         self.facts(node, id, form, parameter);
         self.text("Denotation", self.tree.attribute(node, "denotation"));
+        editor::write(self.document, self.tree, node, parameter);
     }
 
     /// The sub-objects, each sub-index once.

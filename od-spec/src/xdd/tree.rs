@@ -126,7 +126,11 @@ pub(super) fn say_what_is_left_out(tree: Tree<'_>, diagnostics: &mut Diagnostics
         ("templateList", "templates of parameters"),
         ("functionTypeList", "functions of the device"),
     ] {
-        let mut found = tree.xml.descendants().filter(|node| node.is_element() && is_named(*node, name));
+        let is_kept = |node: &Node<'_, '_>| name == "property" && super::editor::is_property(tree, *node);
+        let mut found = tree
+            .xml
+            .descendants()
+            .filter(|node| node.is_element() && is_named(*node, name) && !is_kept(node));
         let Some(first) = found.next() else { continue };
         let message = match 1 + found.count() {
             1 => format!("a `{name}` is left out: {what}"),

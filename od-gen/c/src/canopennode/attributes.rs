@@ -1,6 +1,6 @@
 //! Attributes of an entry, as the stack's SDO server and PDOs ask for them.
 
-use od_spec::model::{Direction, Entry, Family};
+use od_spec::model::{Direction, Entry, Family, Object};
 
 use super::cell::Cell;
 
@@ -9,6 +9,8 @@ const READ: u8 = 0x01;
 const WRITE: u8 = 0x02;
 const TPDO: u8 = 0x04;
 const RPDO: u8 = 0x08;
+const TSRDO: u8 = 0x10;
+const RSRDO: u8 = 0x20;
 const MULTI_BYTE: u8 = 0x40;
 const STRING: u8 = 0x80;
 
@@ -18,13 +20,17 @@ pub(super) struct Attributes(u8);
 
 impl Attributes {
     /// Of an entry. A locked entry can be written: the lock is kept where values are checked.
-    pub(super) fn of(entry: &Entry) -> Self {
+    pub(super) fn of(object: &Object, entry: &Entry) -> Self {
+        let srdos = object.editor.as_ref().and_then(|notes| notes.srdos.get(&entry.sub));
+        let in_srdos = |direction| srdos.is_some_and(|mapping| mapping.allows(direction));
         let mut bits = 0;
         let mut set = |bit: u8, is_set: bool| bits |= if is_set { bit } else { 0 };
         set(READ, entry.access.is_readable());
         set(WRITE, entry.access.is_writable());
         set(TPDO, entry.pdo.allows(Direction::Transmit));
         set(RPDO, entry.pdo.allows(Direction::Receive));
+        set(TSRDO, in_srdos(Direction::Transmit));
+        set(RSRDO, in_srdos(Direction::Receive));
         set(MULTI_BYTE, is_multi_byte(entry));
         set(STRING, matches!(entry.data_type.family(), Family::VisibleString | Family::UnicodeString));
         Self(bits)
@@ -45,9 +51,15 @@ impl Attributes {
             (false, true) => Some("ODA_RPDO"),
             (false, false) => None,
         };
+        let safety = match (has(TSRDO), has(RSRDO)) {
+            (true, true) => Some("ODA_TRSRDO"),
+            (true, false) => Some("ODA_TSRDO"),
+            (false, true) => Some("ODA_RSRDO"),
+            (false, false) => None,
+        };
         let multi_byte = has(MULTI_BYTE).then_some("ODA_MB");
         let string = has(STRING).then_some("ODA_STR");
-        let names: Vec<&str> = [access, mapping, multi_byte, string].into_iter().flatten().collect();
+        let names: Vec<&str> = [access, mapping, safety, multi_byte, string].into_iter().flatten().collect();
         if names.is_empty() { "0U".to_owned() } else { names.join(" | ") }
     }
 }

@@ -1,6 +1,7 @@
-//! How many objects of each kind there are: the stack makes room by these numbers, and leaves out what has none. They follow from the indices alone,
-//! so that an EDS, which has no place for them, gives the same as a specification.
+//! How many objects of each kind there are: the stack makes room by these numbers, and leaves out what has none. They follow from the indices,
+//! so that an EDS, which has no place for them, gives the same as a specification; what a file calls otherwise is counted, too.
 
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use super::objects::StackObject;
@@ -42,6 +43,16 @@ impl Counter {
     pub(super) fn count(&self, objects: &[StackObject<'_>]) -> usize {
         objects.iter().filter(|object| self.indices.contains(&object.object.index.0)).count()
     }
+}
+
+/// Counters that the file names beyond the stack's usual ones, each with the number of its objects.
+pub(super) fn of_labels<'a>(objects: &[StackObject<'a>]) -> BTreeMap<&'a str, usize> {
+    let labels = objects.iter().filter_map(|object| object.object.editor.as_ref()?.count_label.as_deref());
+    let mut counts = BTreeMap::new();
+    for label in labels.filter(|label| COUNTERS.iter().all(|counter| counter.name != *label)) {
+        *counts.entry(label).or_default() += 1;
+    }
+    counts
 }
 
 /// What fills a member of the stack's configuration, where several dictionaries are compiled together.
@@ -109,7 +120,8 @@ impl Setting {
             Self::Counter(name) => {
                 let counter = COUNTERS.iter().find(|counter| counter.name == *name);
                 let absent = if *name == SDO_SERVERS { "1" } else { "0" };
-                (format!("CNT_{name}"), counter.is_some_and(|counter| counter.count(objects) > 0), absent)
+                let is_counted = counter.is_some_and(|counter| counter.count(objects) > 0);
+                (format!("CNT_{name}"), is_counted || of_labels(objects).contains_key(name), absent)
             }
             Self::Elements(index) => {
                 let elements = object(*index).and_then(StackObject::elements);

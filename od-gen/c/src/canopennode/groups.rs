@@ -1,24 +1,52 @@
 //! Storage groups: what the stack stores and restores in one piece is one variable.
 
-use od_spec::model::{Dictionary, Index, Storage, SubIndex};
+use od_spec::model::{Author, Dictionary, Entry, Fact, Index, Object, Storage, SubIndex};
+
+use super::objects::StackObject;
 
 /// Values that lie in one variable, because one command stores them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Group(pub Storage);
-
-impl Group {
-    /// All, in the order of the files.
-    pub(super) const ALL: [Self; 5] = [
-        Self(Storage::Communication),
-        Self(Storage::Application),
-        Self(Storage::Manufacturer),
-        Self(Storage::Remanent),
-        Self(Storage::No),
-    ];
-
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Group<'a> {
     /// `PERSIST_COMM`, of the variable `OD_PERSIST_COMM`.
-    pub(super) const fn name(self) -> &'static str {
-        match self.0 {
+    pub name: &'a str,
+    /// What stores it.
+    pub storage: Storage,
+}
+
+impl<'a> Group<'a> {
+    /// What can store a group, in the order of the files.
+    const ORDER: [Storage; 5] =
+        [Storage::Communication, Storage::Application, Storage::Manufacturer, Storage::Remanent, Storage::No];
+
+    /// The group of an entry of an object: the one that the file names, or else that of what stores the entry. CANopenEditor
+    /// has no place in a group for what has no default.
+    pub(super) fn of(object: &'a Object, entry: &Entry, storage: Storage) -> Self {
+        let has_length = entry.facts.is_said_by(Fact::Capacity, Author::Maker);
+        let named = object.editor.as_ref().and_then(|notes| notes.storage_group.as_deref());
+        let named = named.filter(|_| entry.default.is_some() || has_length);
+        match named {
+            Some(name) => Self { name, storage: Storage::of_group(name) },
+            None => Self { name: Self::usual(storage), storage },
+        }
+    }
+
+    /// All groups of a device, in the order of the files.
+    pub(super) fn all(objects: &[StackObject<'a>]) -> Vec<Self> {
+        let slots = objects.iter().flat_map(StackObject::slots);
+        let mut groups: Vec<Self> = slots.filter_map(|slot| Some(slot.variable()?.0)).collect();
+        groups.sort_by_key(|group| (Self::ORDER.iter().position(|one| *one == group.storage), group.name));
+        groups.dedup();
+        groups
+    }
+
+    /// Whether it is called as it is where the file does not name it.
+    pub(super) fn is_usual(self) -> bool {
+        self.name == Self::usual(self.storage)
+    }
+
+    /// The name of a group that the file does not name.
+    const fn usual(storage: Storage) -> &'static str {
+        match storage {
             Storage::Communication => "PERSIST_COMM",
             Storage::Application => "PERSIST_APP",
             Storage::Manufacturer => "PERSIST_MANUF",
@@ -28,7 +56,7 @@ impl Group {
     }
 
     /// How the stack has to store it; `None` for what is lost at power-off.
-    pub(super) fn storage(self, device: &Dictionary) -> Option<GroupStorage> {
+    pub(super) fn stored(self, device: &Dictionary) -> Option<GroupStorage> {
         let has = |index: u16, sub: u8| {
             device.objects.get(&Index(index)).is_some_and(|object| object.entry(SubIndex(sub)).is_some())
         };
@@ -37,7 +65,7 @@ impl Group {
             let on = |index: u16, flag: u8| if has(index, sub) || has(index, 1) { flag } else { 0 };
             GroupStorage { sub, attributes: on(0x1010, COMMAND) | on(0x1011, RESTORE) }
         };
-        match self.0 {
+        match self.storage {
             Storage::Communication => Some(by_command(2)),
             Storage::Application => Some(by_command(3)),
             Storage::Manufacturer => Some(by_command(4)),

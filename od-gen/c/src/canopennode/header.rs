@@ -7,7 +7,7 @@ use od_spec::wording::{Notation, Wording};
 
 use super::super::text::Text;
 use super::cell::Cell;
-use super::counters::{COUNTERS, SETTINGS};
+use super::counters::{COUNTERS, SETTINGS, of_labels};
 use super::docs::Docs;
 use super::groups::{AUTOMATIC, COMMAND, Group, GroupStorage, RESTORE};
 use super::objects::{Shape, Slot, StackObject};
@@ -21,7 +21,7 @@ pub(super) fn print(text: &mut Text, docs: Docs<'_, '_>, objects: &[StackObject<
     text.line("#endif");
     counters(text, objects);
     elements(text, objects);
-    for group in Group::ALL {
+    for group in Group::all(objects) {
         variables(text, docs, group, objects);
     }
     dictionary(text);
@@ -43,6 +43,9 @@ fn counters(text: &mut Text, objects: &[StackObject<'_>]) {
             text.define(&format!("OD_CNT_{}", counter.name), &format!("{count}"));
         }
     }
+    for (label, count) in of_labels(objects) {
+        text.define(&format!("OD_CNT_{label}"), &format!("{count}"));
+    }
 }
 
 fn elements(text: &mut Text, objects: &[StackObject<'_>]) {
@@ -58,20 +61,13 @@ fn elements(text: &mut Text, objects: &[StackObject<'_>]) {
     }
 }
 
-/// Whether any value lies in a group.
-pub(super) fn is_used(group: Group, objects: &[StackObject<'_>]) -> bool {
-    objects.iter().flat_map(StackObject::slots).any(|slot| slot.variable().is_some_and(|(of, _)| of == group))
-}
-
 /// The values of a group, in the order of the objects.
-fn variables(text: &mut Text, docs: Docs<'_, '_>, group: Group, objects: &[StackObject<'_>]) {
-    if !is_used(group, objects) {
-        return;
-    }
-    let name = group.name();
+fn variables(text: &mut Text, docs: Docs<'_, '_>, group: Group<'_>, objects: &[StackObject<'_>]) {
+    let name = group.name;
     let words = Wording::english(Notation::Rust);
-    let about = match words.storage(group.0) {
-        "" => "Values that are lost at power-off.".to_owned(),
+    let about = match words.storage(group.storage) {
+        "" if group.is_usual() => "Values that are lost at power-off.".to_owned(),
+        "" => "Values of a group that no command stores.".to_owned(),
         kept => format!(
             "Values that are {kept}. Another order of the members makes another layout: what was stored before does not fit it."
         ),
@@ -91,7 +87,7 @@ fn variables(text: &mut Text, docs: Docs<'_, '_>, group: Group, objects: &[Stack
     text.line(&format!("extern OD_ATTR_{name} OD_{name}_t OD_{name};"));
 }
 
-fn members(text: &mut Text, docs: Docs<'_, '_>, group: Group, object: &StackObject<'_>) {
+fn members(text: &mut Text, docs: Docs<'_, '_>, group: Group<'_>, object: &StackObject<'_>) {
     let cell_in = |slot: &Slot<'_>| slot.variable().filter(|(of, _)| *of == group).map(|(_, cell)| cell);
     let variable = object.variable();
     match &object.shape {
@@ -147,12 +143,7 @@ fn dictionary(text: &mut Text) {
 
 /// What the application's list of storage has for each group.
 fn storage(text: &mut Text, device: &Dictionary, objects: &[StackObject<'_>]) {
-    let stored = || {
-        Group::ALL
-            .into_iter()
-            .filter(|group| is_used(*group, objects))
-            .filter_map(|group| Some((group, group.storage(device)?)))
-    };
+    let stored = || Group::all(objects).into_iter().filter_map(|group| Some((group, group.stored(device)?)));
     if stored().next().is_none() {
         return;
     }
@@ -173,13 +164,13 @@ fn storage(text: &mut Text, device: &Dictionary, objects: &[StackObject<'_>]) {
             by.join(", ")
         };
         text.doc(&format!("Sub-index {sub}; {by}."));
-        let name = group.name();
+        let name = group.name;
         text.line(&format!("#define OD_STORAGE_{name} \\"));
         text.line(&format!(
             "    .addr = &OD_{name}, .len = sizeof(OD_{name}), .subIndexOD = {sub}U, .attr = 0x{attributes:02X}U"
         ));
     }
-    let all: Vec<String> = stored().map(|(group, _)| format!("{{OD_STORAGE_{}}}", group.name())).collect();
+    let all: Vec<String> = stored().map(|(group, _)| format!("{{OD_STORAGE_{}}}", group.name)).collect();
     text.doc("All groups that are stored.");
     text.define("OD_STORAGE_ENTRIES", &all.join(", "));
 }

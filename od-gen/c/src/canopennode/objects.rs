@@ -34,13 +34,13 @@ pub(super) struct Slot<'a> {
     pub attributes: Attributes,
     /// The length that the stack knows.
     pub length: u32,
-    pub memory: Memory,
+    pub memory: Memory<'a>,
 }
 
 /// Where a value lies.
-pub(super) enum Memory {
+pub(super) enum Memory<'a> {
     /// In the variable of a group.
-    Variable { group: Group, cell: Cell, member: String },
+    Variable { group: Group<'a>, cell: Cell, member: String },
     /// Nowhere, as the stack itself or the application has it: the history of errors, a DOMAIN.
     Stack,
     /// Nowhere, as it is another view of another entry.
@@ -122,7 +122,7 @@ impl<'a> StackObject<'a> {
 }
 
 impl<'a> Slot<'a> {
-    fn of(object: &Object, entry: &'a Entry, member: String, group_of_rest: Option<Storage>) -> Self {
+    fn of(object: &'a Object, entry: &'a Entry, member: String, group_of_rest: Option<Storage>) -> Self {
         let id = EntryId { index: object.index, sub: entry.sub };
         let cell = Cell::of(entry);
         // What tells the shape of an object lies with the object.
@@ -132,9 +132,15 @@ impl<'a> Slot<'a> {
             _ if entry.alias.is_some() => Memory::View,
             _ if object.index.0 == 0x1003 => Memory::Stack,
             None => Memory::Stack,
-            Some(cell) => Memory::Variable { group: Group(storage), cell, member },
+            Some(cell) => Memory::Variable { group: Group::of(object, entry, storage), cell, member },
         };
-        Self { id, entry, attributes: Attributes::of(entry), length: cell.map_or(0, Cell::length), memory }
+        Self {
+            id,
+            entry,
+            attributes: Attributes::of(object, entry),
+            length: cell.map_or(0, Cell::length),
+            memory,
+        }
     }
 
     /// The name of the value as one of several of a RECORD.
@@ -146,7 +152,7 @@ impl<'a> Slot<'a> {
     }
 
     /// The group and the variable of the value.
-    pub(super) const fn variable(&self) -> Option<(Group, Cell)> {
+    pub(super) const fn variable(&self) -> Option<(Group<'a>, Cell)> {
         match &self.memory {
             Memory::Variable { group, cell, .. } => Some((*group, *cell)),
             Memory::Stack | Memory::View => None,

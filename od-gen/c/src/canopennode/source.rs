@@ -3,7 +3,6 @@
 use super::super::text::Text;
 use super::cell::Cell;
 use super::groups::Group;
-use super::header::is_used;
 use super::initial::initialiser;
 use super::objects::{Memory, Shape, Slot, StackObject};
 
@@ -13,7 +12,7 @@ pub(super) fn print(text: &mut Text, objects: &[StackObject<'_>]) {
     text.line("#define OD_DEFINITION");
     text.line("#include \"301/CO_ODinterface.h\"");
     text.line("#include \"OD.h\"");
-    for group in Group::ALL {
+    for group in Group::all(objects) {
         variables(text, group, objects);
     }
     object_types(text, objects);
@@ -22,11 +21,8 @@ pub(super) fn print(text: &mut Text, objects: &[StackObject<'_>]) {
 }
 
 /// A group with what it begins with.
-fn variables(text: &mut Text, group: Group, objects: &[StackObject<'_>]) {
-    if !is_used(group, objects) {
-        return;
-    }
-    let name = group.name();
+fn variables(text: &mut Text, group: Group<'_>, objects: &[StackObject<'_>]) {
+    let name = group.name;
     text.gap();
     text.block(&format!("OD_ATTR_{name} OD_{name}_t OD_{name} = {{"), "};", |text| {
         for object in objects {
@@ -35,7 +31,7 @@ fn variables(text: &mut Text, group: Group, objects: &[StackObject<'_>]) {
     });
 }
 
-fn members(text: &mut Text, group: Group, object: &StackObject<'_>) {
+fn members(text: &mut Text, group: Group<'_>, object: &StackObject<'_>) {
     let value_in = |slot: &Slot<'_>| {
         slot.variable().filter(|(of, _)| *of == group).map(|(_, cell)| initialiser(slot.id, slot.entry, cell))
     };
@@ -134,7 +130,7 @@ fn address(object: &StackObject<'_>, slot: &Slot<'_>) -> String {
                 Cell::Boolean | Cell::Integer(_) | Cell::Real32 | Cell::Real64 => "",
                 Cell::Bytes(_) | Cell::Characters(_) | Cell::WideCharacters(_) => "[0]",
             };
-            format!("&OD_{}.{path}{first}", group.name())
+            format!("&OD_{}.{path}{first}", group.name)
         }
         (Memory::Variable { .. } | Memory::Stack | Memory::View, _) => "NULL".to_owned(),
     }

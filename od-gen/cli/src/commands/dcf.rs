@@ -11,7 +11,7 @@ use od_formats::xdd::write_xdc;
 use od_gen::Artifact;
 use od_gen::condense;
 use od_gen::files::Existing;
-use od_gen::source::{FileLoader, open};
+use od_gen::source::open;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
 use od_spec::source::{SourceMap, Spanned};
@@ -109,7 +109,7 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     let node = args.node.as_deref().map(node_id).transpose().map_err(refuse)?;
     let spec = specs::one(args.spec.as_deref(), directory, report)?;
     let mut sources = SourceMap::new();
-    let mut loader = FileLoader::default();
+    let mut loader = report.loader();
     let mut compiled = od_gen::source::compile_file(&spec, &mut sources, &mut loader);
     if let Some(line) = condense(&spec, &mut compiled) {
         report.note(&line);

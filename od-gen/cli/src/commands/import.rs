@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use od_gen::Artifact;
 use od_gen::files::Existing;
-use od_gen::source::{FileLoader, compile_file};
+use od_gen::source::compile_file;
 use od_import::{Imported, import};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::source::SourceMap;
@@ -65,7 +65,7 @@ pub(crate) fn run(args: &ImportArgs, report: &Report) -> u8 {
 /// The specification of one file, and what to say about it.
 fn one(path: &Path, report: &Report) -> Option<(Artifact, String)> {
     let mut sources = SourceMap::new();
-    let mut loader = FileLoader::default();
+    let mut loader = report.loader();
     let compiled = compile_file(path, &mut sources, &mut loader);
     let root = sources.files().next().map(|(id, _)| id);
     let eds = root.filter(|root| {

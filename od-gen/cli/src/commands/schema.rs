@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use od_gen::source::{FileLoader, open};
+use od_gen::source::open;
 use od_reference::{plant_schema, plant_schema_of};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, System};
@@ -85,7 +85,7 @@ struct Keyed {
 
 /// The devices of a plant. What else is wrong with it does not matter: it is being written.
 fn of_plant(sources: &mut SourceMap, root: FileId, report: &Report) -> Result<Vec<Keyed>, u8> {
-    let read = plant(sources, root, &mut FileLoader::default());
+    let read = plant(sources, root, &mut report.loader());
     let devices: Vec<Keyed> = read
         .devices
         .into_iter()

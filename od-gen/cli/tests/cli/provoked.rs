@@ -75,4 +75,5 @@ pub(crate) const PROVOKED: &[Provocation] = &[
     Provocation { code: "XDD205", arguments: FAULTY },
     Provocation { code: "XDD206", arguments: FAULTY },
     Provocation { code: "XDD207", arguments: FAULTY },
+    Provocation { code: "XDD208", arguments: FAULTY },
 ];

@@ -75,3 +75,50 @@ fn faults_are_shown_in_the_xml() {
     let text = fs::read_to_string(scratch.0.join("faulty.od.yaml")).unwrap();
     assert!(text.contains("2001h has no data type; it is taken as DOMAIN (XDD203)"), "{text}");
 }
+
+/// A file of CANopenEditor: an object that is switched off, and properties of two others.
+const KILN: &str = "<ISO15745ProfileContainer><ProfileBody><DeviceIdentity><vendorName>Kiln</vendorName><productName>Kiln</productName>\
+    </DeviceIdentity><ApplicationProcess><parameterList>\n\
+    <parameter uniqueID=\"A\" access=\"readWrite\"><UINT/><defaultValue value=\"500\"/><property name=\"CO_countLabel\" value=\"HB_PROD\"/>\
+    <property name=\"CO_storageGroup\" value=\"PERSIST_COMM\"/></parameter>\n\
+    <parameter uniqueID=\"B\" access=\"readWrite\"><UINT/><defaultValue value=\"7\"/><property name=\"CO_accessSRDO\" value=\"tx\"/>\
+    <property name=\"CO_storageGroup\" value=\"PERSIST_OVEN\"/></parameter>\n\
+    <parameter uniqueID=\"C\" access=\"readWrite\"><UINT/><defaultValue value=\"6\"/><property name=\"CO_disabled\" value=\"true\"/>\
+    </parameter>\n</parameterList></ApplicationProcess><CANopenObjectList>\n\
+    <CANopenObject index=\"1017\" name=\"heartbeat\" objectType=\"7\" uniqueIDRef=\"A\"/>\n\
+    <CANopenObject index=\"2000\" name=\"curve\" objectType=\"7\" uniqueIDRef=\"B\"/>\n\
+    <CANopenObject index=\"2001\" name=\"spare\" objectType=\"7\" uniqueIDRef=\"C\"/>\n\
+    </CANopenObjectList></ProfileBody></ISO15745ProfileContainer>\n";
+
+#[test]
+fn what_is_switched_off_is_left_out_or_taken_by_every_command() {
+    let scratch = Scratch::new("xdd-disabled");
+    scratch.file("kiln.xdd", KILN);
+    let run = |arguments: &[&str]| odgen(&scratch.0, arguments);
+    let told = stderr(&run(&["check", "kiln.xdd"]));
+    assert!(told.contains("warning[XDD208]: 1 object is switched off and left out: 2001h\n"), "{told}");
+    for arguments in [&["dump", "kiln.xdd"][..], &["dcf", "kiln.xdd", "--node", "3"]] {
+        let made = |more: &[&str]| {
+            let printed = stdout(&run(&[arguments, more].concat()));
+            printed + &fs::read_to_string(scratch.0.join("kiln-3.dcf")).unwrap_or_default()
+        };
+        let (without, with) = (made(&[]), made(&["--disabled"]));
+        assert!(without.contains("curve") && !without.contains("spare"), "{arguments:?}: {without}");
+        assert!(with.contains("spare"), "{arguments:?}: {with}");
+    }
+    let told = stderr(&run(&["check", "kiln.xdd", "--disabled"]));
+    assert!(!told.contains("XDD208") && told.contains("3 objects"), "{told}");
+    // A file is read twice in one way.
+    let told = stdout(&run(&["diff", "kiln.xdd", "kiln.xdd", "--disabled", "--format", "short"]));
+    assert_eq!(told, "");
+}
+
+#[test]
+fn an_import_keeps_what_the_specification_has_keys_for_and_lists_the_rest() {
+    let scratch = Scratch::new("xdd-kept");
+    scratch.file("kiln.xdd", KILN);
+    assert_eq!(code(&odgen(&scratch.0, &["import", "kiln.xdd"])), 0);
+    let text = fs::read_to_string(scratch.0.join("kiln.od.yaml")).unwrap();
+    let objects = &text[text.find("objects:").unwrap()..];
+    assert_snapshot!("kiln_imported", objects);
+}

@@ -1,7 +1,7 @@
 //! The lists of objects (CiA 306 4.6.3.1), each followed by the sections of its objects.
 
 use od_spec::eds::Document;
-use od_spec::model::{Dictionary, Object, System};
+use od_spec::model::{Dictionary, Entry, Object, System};
 use od_spec::{Commissioning, Denoted};
 
 use super::comments;
@@ -72,6 +72,8 @@ fn write_object(
             let mut section =
                 SectionWriter::new(&name, &comments::entry(device, object.index, var, node, language));
             entry::write(&mut section, object, var, &object.eds_name_of(var), node);
+            of_object(&mut section, object);
+            of_entry(&mut section, object, var);
             section.finish(document);
         }
         write_links(document, object);
@@ -84,15 +86,31 @@ fn write_object(
     if let Some(node) = node {
         entry::denotation(&mut section, node, Denoted::object(object.index));
     }
+    of_object(&mut section, object);
     section.finish(document);
     for member in &object.entries {
         let name = entry_section(object.index, member.sub);
         let mut section =
             SectionWriter::new(&name, &comments::entry(device, object.index, member, node, language));
         entry::write(&mut section, object, member, &object.eds_name_of(member), node);
+        of_entry(&mut section, object, member);
         section.finish(document);
     }
     write_links(document, object);
+}
+
+/// What CANopenEditor keeps of an object as a whole.
+fn of_object(section: &mut SectionWriter, object: &Object) {
+    for (property, value) in object.editor.iter().flat_map(|notes| notes.of_object()) {
+        section.property(property, value);
+    }
+}
+
+/// What CANopenEditor keeps of an entry.
+fn of_entry(section: &mut SectionWriter, object: &Object, entry: &Entry) {
+    if let Some((property, value)) = object.editor.as_ref().and_then(|notes| notes.of_entry(entry.sub)) {
+        section.property(property, value);
+    }
 }
 
 /// The objects that belong together with an object (CiA 306 4.6.4).

@@ -1,11 +1,12 @@
-//! Fills a document within the limits of the format: ASCII, 255 characters a line, comments only above a section.
+//! Fills a document within the limits of the format: ASCII, 255 characters a line, comments only above a section,
+//! except properties of CANopenEditor, which it looks for among the keys.
 
 use std::borrow::Cow;
 use std::fmt::Display;
 
 use od_spec::ascii::{in_ascii, is_printable, transliterate};
 use od_spec::eds::{Document, Section};
-use od_spec::model::{Index, SubIndex};
+use od_spec::model::{EditorProperty, Index, SubIndex};
 
 use crate::hexadecimal;
 
@@ -51,6 +52,11 @@ impl SectionWriter {
         if fits(key, value) {
             self.0.push(key, value);
         }
+    }
+
+    /// A property of CANopenEditor: a comment to all other readers.
+    pub(super) fn property(&mut self, property: EditorProperty, value: &str) {
+        self.0.push_remark(property.key(), value);
     }
 
     /// A key whose value is 1 or 0.

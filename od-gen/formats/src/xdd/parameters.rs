@@ -4,7 +4,8 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::{
-    Access, DataType, Entry, EnumValue, Object, ObjectKind, Ratio, Storage, Text, TypeKind, Unit, Value,
+    Access, DataType, EditorNotes, EditorProperty, Entry, EnumValue, Family, Object, ObjectKind, Ratio,
+    Storage, Text, TypeKind, Unit, Value,
 };
 use od_spec::wording::{Notation, Wording};
 
@@ -76,6 +77,7 @@ fn whole(xml: &mut Xml, subject: Subject<'_>, object: &Object) {
         let language = subject.system.language();
         descriptions(xml, subject, &object.about, &comments::object(object, language));
         xml.empty(Element::new("canopen:dataTypeIDRef").with("uniqueIDRef", uid_of_type(object)));
+        object.editor.iter().flat_map(|notes| notes.of_object()).for_each(|one| property(xml, one));
     });
 }
 
@@ -117,7 +119,37 @@ fn parameter(xml: &mut Xml, subject: Subject<'_>, object: &Object, entry: &Entry
                 xml.text(Element::new("label").with("lang", "en"), &label);
             });
         }
+        let notes = object.editor.as_deref();
+        let of_object =
+            notes.filter(|_| !object.is_structured()).into_iter().flat_map(EditorNotes::of_object);
+        let of_entry = notes.and_then(|notes| notes.of_entry(entry.sub));
+        of_object.chain(of_entry).for_each(|one| property(xml, one));
+        if let Some(length) = length_of_text(entry) {
+            property(xml, (EditorProperty::StringLength, &length.to_string()));
+        }
     });
+}
+
+/// What CANopenEditor keeps of an object or entry.
+fn property(xml: &mut Xml, (property, value): (EditorProperty, &str)) {
+    xml.empty(Element::new("canopen:property").with("name", property.name()).with("value", value));
+}
+
+/// How many characters or bytes a text has room for, if that is more than its default has.
+fn length_of_text(entry: &Entry) -> Option<u16> {
+    let width = match entry.data_type.family() {
+        Family::VisibleString | Family::OctetString => 1,
+        Family::UnicodeString => 2,
+        Family::Boolean
+        | Family::Signed
+        | Family::Unsigned
+        | Family::Real
+        | Family::Time
+        | Family::Domain => return None,
+    };
+    let default = entry.default.as_ref().and_then(|value| value.bytes_for(entry.data_type, 0));
+    let capacity = entry.capacity?;
+    (usize::from(capacity) > default.map_or(0, |bytes| bytes.len())).then_some(capacity / width)
 }
 
 /// One raw step in the unit's symbol, where a decimal says it and raw values count from 0. What else a scale may be, the label says:

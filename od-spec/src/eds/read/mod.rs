@@ -8,6 +8,7 @@ mod channels;
 mod comments;
 mod compact;
 mod device;
+mod editor;
 mod entry;
 mod form;
 mod implicit_pdos;

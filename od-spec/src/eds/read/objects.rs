@@ -2,6 +2,7 @@
 
 use super::Form;
 use super::compact;
+use super::editor;
 use super::entry::{self, Context};
 use super::links;
 use super::node_texts;
@@ -34,7 +35,9 @@ pub(super) fn object(index: Index, part: &ObjectPart<'_>, context: &mut Context<
         return None;
     }
     let links = part.links.as_ref().map(links::links);
-    Some(ObjectDecl { links, ..described(id, part, place, context)? })
+    let object = ObjectDecl { links, ..described(id, part, place, context)? };
+    context.about(index);
+    Some(editor::add_to(object, part, context))
 }
 
 /// An object as its own section and those of its sub-indices describe it.

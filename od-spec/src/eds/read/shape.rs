@@ -28,6 +28,7 @@ pub(super) fn declaration(index: Index, place: Span, entry: EntryDecl) -> Object
         sub0: None,
         omit: Vec::new(),
         links: None,
+        editor: None,
         entry,
     }
 }

@@ -6,4 +6,5 @@ mod accesses;
 mod complaints;
 mod entries;
 mod extension;
+mod groups;
 mod project;

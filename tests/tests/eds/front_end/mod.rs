@@ -4,6 +4,7 @@
 
 mod channels;
 mod conditions;
+mod editor;
 mod links;
 mod node;
 mod own_files;

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod editor;
 mod hostile;
 mod reading;
 mod round_trip;

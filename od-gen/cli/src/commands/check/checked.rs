@@ -15,6 +15,7 @@ use od_spec::{Compiled, Strictness};
 use super::args::CheckArgs;
 use super::inputs::Input;
 use super::policy::{Errors, Policy};
+use crate::report::Report;
 
 /// What was found in one input.
 pub(super) struct Checked {
@@ -51,10 +52,10 @@ impl Checked {
 }
 
 /// Compiles and checks.
-pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy) -> Checked {
+pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy, report: &Report) -> Checked {
     let strictness = if args.strict { Strictness::Standard } else { Strictness::Foreign };
     let mut sources = SourceMap::new();
-    let mut compiled = compile(input, strictness, &mut sources);
+    let mut compiled = compile(input, strictness, &mut sources, &mut report.loader());
     let root = sources.files().next().map(|(id, _)| id);
     if let Some(root) = root {
         remark(&sources, root, &mut compiled);
@@ -88,8 +89,12 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy) -> Checked
     Checked { name: input.name(), kind, objects, shown, hidden_notes, hidden_repairs, sources }
 }
 
-fn compile(input: &Input, strictness: Strictness, sources: &mut SourceMap) -> Compiled {
-    let loader = &mut FileLoader::default();
+fn compile(
+    input: &Input,
+    strictness: Strictness,
+    sources: &mut SourceMap,
+    loader: &mut FileLoader,
+) -> Compiled {
     match input {
         Input::File(path) => compile_file_as(strictness, path, sources, loader),
         Input::Stdin(name) => match read_input(std::io::stdin().lock()) {

@@ -38,7 +38,7 @@ pub(crate) fn run(args: &CheckArgs, format: Option<Format>, directory: &Path, re
     let (mut total, mut document, mut written) = (Total::default(), Vec::new(), SUCCESS);
     // Printing frames takes longer than finding what they show: that is work for all cores, too.
     let work = |input: &Input| {
-        let checked = check(input, args, &policy);
+        let checked = check(input, args, &policy, report);
         let text = format::of_file(&checked, format, args, report.colour());
         (checked, text)
     };

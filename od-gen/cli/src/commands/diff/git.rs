@@ -6,6 +6,7 @@ use std::process::Command;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
+use od_spec::xdd::Disabled;
 use od_spec::{Loader, read_text};
 
 use crate::exit::ERRORS;
@@ -19,7 +20,7 @@ pub(crate) fn compile(revision: &str, path: &Path, report: &Report) -> Result<Sy
                 .help("write a tag, a branch or a commit, such as `v1.08` or `HEAD~1`"),
         ));
     }
-    let mut git = Git { revision };
+    let mut git = Git { revision, disabled: report.disabled() };
     let name = git.name(path);
     let bytes = git.show(path).map_err(|reason| {
         report.refuse(
@@ -38,6 +39,7 @@ pub(crate) fn compile(revision: &str, path: &Path, report: &Report) -> Result<Sy
 /// Reads files of a revision.
 struct Git<'a> {
     revision: &'a str,
+    disabled: Disabled,
 }
 
 impl Git<'_> {
@@ -70,5 +72,9 @@ impl Loader for Git<'_> {
         let from = from.strip_prefix(self.revision).and_then(|rest| rest.strip_prefix(':')).unwrap_or(from);
         let path: PathBuf = Path::new(from).parent().unwrap_or(Path::new("")).join(path);
         self.show(&path)
+    }
+
+    fn disabled(&self) -> Disabled {
+        self.disabled
     }
 }
