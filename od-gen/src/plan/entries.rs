@@ -39,7 +39,7 @@ impl<'a> Plan<'a> {
         };
         for object in self.device.objects.values() {
             let what = format!("{} ({})", object.index, object.name);
-            let words = Words::of(object.identifier.as_ref().unwrap_or(&object.name));
+            let words = Words::of(object.label());
             let name = self.language.identifier(Role::Function, &words);
             // What follows from a name that is refused is refused with it.
             if !scopes.accessors.claim(&name, &what, object.span, diagnostics) {
@@ -103,7 +103,7 @@ impl<'a> Plan<'a> {
         diagnostics: &mut Diagnostics,
     ) {
         let id = EntryId { index: parent.object.index, sub: entry.sub };
-        let label = entry.identifier.as_ref().unwrap_or(&entry.name);
+        let label = entry.label();
         let words =
             if parent.object.is_structured() { parent.words.and(label) } else { parent.words.clone() };
         let member = self.identifier(Role::Function, label);
@@ -231,8 +231,7 @@ impl<'a> Plan<'a> {
         let fixed = elements.iter().all(|entry| entry.data_type.bits().is_some());
         if are_alike(elements) && gapless && fixed && lies_in_a_row(object, elements, &self.layout) {
             let changes = sub0.access.is_writable() || object.index.0 == 0x1003;
-            let label = sub0.identifier.as_ref().unwrap_or(&sub0.name);
-            let count = || self.language.identifier(Role::Function, &words.and(label));
+            let count = || self.language.identifier(Role::Function, &words.and(sub0.label()));
             Shape::Indexed { count: changes.then(count) }
         } else {
             Shape::Group { type_name: self.language.identifier(Role::Type, words) }

@@ -23,6 +23,11 @@ pub fn decided<'a>(system: &System, device: &'a Dictionary, language: &dyn Langu
     }
 }
 
+/// Gives an identifier to every object and entry that would share one in code.
+pub fn tell_apart(device: &mut Dictionary, language: &dyn Language) {
+    names::tell_apart(device, language);
+}
+
 /// The device with names that differ and with capacities, whatever it was read from: where nobody will see a name, nobody is
 /// asked for one.
 pub fn decided_anyhow(device: &Dictionary, language: &dyn Language) -> Dictionary {

@@ -30,6 +30,7 @@ pub use self::condition::{Compare, Condition, Sum};
 pub use self::directory::{Block, Directory};
 pub use self::foreign::decided;
 pub use self::foreign::decided_anyhow;
+pub use self::foreign::tell_apart;
 pub use self::groups::Groups;
 pub use self::groups::is_accessible;
 pub use self::language::{Companion, Language, Role, ScopeKind};

@@ -36,7 +36,7 @@ impl Plan<'_> {
     pub(super) fn plan_runs(&mut self, accessors: &mut Scope) {
         let mut by_pattern: BTreeMap<Pattern, Vec<(u16, usize)>> = BTreeMap::new();
         for (position, object) in self.objects.iter().enumerate() {
-            let words = Words::of(object.object.identifier.as_ref().unwrap_or(&object.object.name));
+            let words = Words::of(object.object.label());
             for (at, number, rest) in words.numbers() {
                 by_pattern.entry((rest, at)).or_default().push((number, position));
             }

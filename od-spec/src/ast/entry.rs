@@ -45,6 +45,11 @@ macro_rules! entry_decl {
                 }
             }
 
+            /// What references may call it: its name and its identifier.
+            pub(crate) fn names(&self) -> impl Iterator<Item = &Name> {
+                [&self.name, &self.identifier].into_iter().flatten()
+            }
+
             /// What elements and members take from their object.
             pub(crate) fn inherited(&self) -> EntryDecl {
                 EntryDecl {

@@ -47,6 +47,7 @@ pdo_mapping_keys! { declaration
 #[derive(Debug)]
 pub(crate) struct PdoParameterDecl {
     pub name: Option<Spanned<NamePattern>>,
+    pub identifier: Option<Spanned<NamePattern>>,
     pub access: Option<Spanned<Access>>,
     pub default: Option<Spanned<i128>>,
     pub min: Option<Spanned<i128>>,

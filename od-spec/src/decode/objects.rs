@@ -141,23 +141,31 @@ fn run(
     copies.collect()
 }
 
-/// Checks that the names of a run are different ones.
+/// Whether the names or identifiers of a run are different ones.
+fn is_numbered(entry: &EntryDecl) -> bool {
+    entry.names().any(|name| name.value.contains("{n}"))
+}
+
+/// Checks that the names or identifiers of a run are different ones.
 fn check_numbered(entry: &EntryDecl, what: &str, number: &str, diagnostics: &mut Diagnostics) {
-    if let Some(name) = entry.name.as_ref().filter(|name| !name.value.contains("{n}")) {
+    if let Some(name) = entry.name.as_ref().filter(|_| !is_numbered(entry)) {
         let message = format!("the {what} of a run would all have this name");
         diagnostics.push(
             Diagnostic::new(codes::BAD_NOTATION, name.span, message)
-                .help(format!("write `{{n}}` into the name; {number}")),
+                .help(format!("write `{{n}}` into the name or into `identifier:`; {number}")),
         );
     }
 }
 
 /// Writes the number of an object or entry of a run into its names.
 fn number_names(entry: &mut EntryDecl, number: u16) {
+    // A name without `{n}` was reported; its copies do not have to be reported, too.
+    let is_reported = !is_numbered(entry);
     for text in [&mut entry.name, &mut entry.identifier].into_iter().flatten() {
-        let whole = text.value.replace("{n}", &number.to_string());
-        // A name without `{n}` was reported; its copies do not have to be reported, too.
-        text.value = if whole == text.value { format!("{whole} {number}") } else { whole };
+        text.value = text.value.replace("{n}", &number.to_string());
+    }
+    if let Some(name) = entry.name.as_mut().filter(|_| is_reported) {
+        name.value = format!("{} {number}", name.value);
     }
 }
 

@@ -47,6 +47,7 @@ impl Field for Option<Box<PdoParametersDecl>> {
 fn parameter(reader: Reader<'_>, _: &mut Diagnostics) -> PdoParameterDecl {
     PdoParameterDecl {
         name: reader.scalar(pattern).or_else(|| reader.value("name", pattern)),
+        identifier: reader.value("identifier", pattern),
         access: reader.value("access", Access::from_word),
         default: reader.integer("default"),
         min: reader.integer("min"),

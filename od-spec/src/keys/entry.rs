@@ -19,7 +19,7 @@ macro_rules! entry_keys {
         $then! {
             names {
                 "name": Shape::Text => name: String, Name, Object, "name, as the manual spells it", "actual position", sub0 "name; `number of elements` unless given";
-                "identifier": Shape::Text => identifier: String, Identifier, Object, "name in generated code, where the one made from `name` will not do", "speed_limit_2";
+                "identifier": Shape::Text => identifier: String, Identifier, Object, "name in references and in generated code, where `name` will not do, or where others have it, too", "speed_limit_2", sub0 "name in references and in generated code";
             }
             values {
                 "type": Shape::Type => type_name: String, Type, Entries, "data type, or a named type", "unsigned16";

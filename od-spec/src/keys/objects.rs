@@ -34,6 +34,7 @@ pub static OBJECT: Keys = Keys {
 const ARRAY_KEYS: &[Key] = key_list! {
     "count": Shape::Integer(0, 254), "number of elements; the highest of `elements` unless given";
     "name": Shape::Text, "name of the elements; `{n}` stands for the sub-index", "\"block {n}\"";
+    "identifier": Shape::Text, "identifier of the elements; `{n}` stands for the sub-index", "\"block_{n}\"";
     "elements": Shape::MapOf(KeyKind::SubIndices, &Shape::Map(&ENTRY)), "what single elements, or runs of them such as `1..4`, have of their own", "{1: {name: nominal value, default: 560 V}}";
 };
 

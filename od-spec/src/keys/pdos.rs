@@ -44,6 +44,7 @@ macro_rules! pdo_communication_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "name": NAME => name: Option<Spanned<NamePattern>>, "name of the object", "\"Transmit PDO {pdo} Parameter\"";
+            "identifier": NAME => identifier: Option<Spanned<NamePattern>>, "identifier of the object, where others have the name, too", "tpdo_{pdo}";
             "sub0": PARAMETER => sub0: Option<PdoParameterDecl>, "sub-index 0", "Number of Entries";
             "cob-id": PARAMETER => cob_id: Option<PdoParameterDecl>, "sub-index 1, the COB-ID", "COB-ID";
             "transmission": PARAMETER => transmission: Option<PdoParameterDecl>, "sub-index 2, the transmission type", "{name: Transmission Type, min: 0, max: 255}";
@@ -65,6 +66,7 @@ macro_rules! pdo_mapping_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "name": NAME => name: Option<Spanned<NamePattern>>, "name of the object", "\"Transmit PDO {pdo} Mapping\"";
+            "identifier": NAME => identifier: Option<Spanned<NamePattern>>, "identifier of the object, where others have the name, too", "tpdo_mapping_{pdo}";
             "sub0": PARAMETER => sub0: Option<PdoParameterDecl>, "sub-index 0, the number of mapped entries", "Number of Entries";
             "entry": Shape::ShortOr(&ENTRY_NAME, &PDO_MAPPED_ENTRY) => entry: Option<PdoParameterDecl>, "every other sub-index, a mapped entry", "\"Mapping Entry {n}\"";
             "entries": Shape::MapOf(KeyKind::SubIndex, &ENTRY_NAME) => entries: BTreeMap<u8, Spanned<NamePattern>>, "names of single mapped entries, by sub-index", "{1: First mapped object}";
@@ -85,6 +87,7 @@ keys! {
     /// An entry of the parameter objects of PDOs.
     PDO_PARAMETER = "a parameter of PDOs" {
         "name": NAME, "name", "Transmission Type";
+        "identifier": NAME, "identifier, where another parameter has the name, too", "transmission_type";
         "access": ACCESS, "access; unless given, sub-index 0 of communication parameters and what belongs to a fixed mapping is `ro`, everything else `rw`";
         "min": U32, "smallest allowed value";
         "max": U32, "largest allowed value";
@@ -95,6 +98,7 @@ keys! {
     /// Sub-index 4 of communication parameters.
     PDO_RESERVED = "a reserved parameter of PDOs" {
         "name": NAME, "name; `reserved` unless given", "Compatibility Entry";
+        "identifier": NAME, "identifier, where another parameter has the name, too", "compatibility_entry";
         "access": ACCESS, "access; `ro` unless given";
         "default": U8, "its value; none unless given";
         "min": U32, "smallest allowed value";
@@ -106,6 +110,7 @@ keys! {
     /// The mapped entries of mapping parameters.
     PDO_MAPPED_ENTRY = "a mapped entry of PDOs" {
         "name": ENTRY_NAME, "name", "\"Mapping Entry {n}\"";
+        "identifier": ENTRY_NAME, "identifier, where the entries have one name", "\"mapping_entry_{n}\"";
         "access": ACCESS, "access; unless given, `ro` where the mapping is fixed, else `rw`";
         "min": U32, "smallest allowed value";
         "max": U32, "largest allowed value";

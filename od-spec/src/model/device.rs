@@ -86,11 +86,21 @@ impl Dictionary {
     /// The name of an entry as a person would look it up: `controlword`, `drive data.error mask`.
     pub fn entry_name(&self, id: EntryId) -> Option<String> {
         let object = self.objects.get(&id.index)?;
-        let entry = object.entry(id.sub)?;
-        Some(match object.kind {
-            ObjectKind::Var | ObjectKind::Domain => object.name.clone(),
-            ObjectKind::Array | ObjectKind::Record => format!("{}.{}", object.name, entry.name),
-        })
+        Some(dotted(object, &object.name, &object.entry(id.sub)?.name))
+    }
+
+    /// The name of an entry that no other entry has: identifiers stand in for names where they are given.
+    pub fn entry_label(&self, id: EntryId) -> Option<String> {
+        let object = self.objects.get(&id.index)?;
+        Some(dotted(object, object.label(), object.entry(id.sub)?.label()))
+    }
+}
+
+/// The name of an entry: that of its object, with its own behind it where the object has several.
+fn dotted(object: &Object, name: &str, entry: &str) -> String {
+    match object.kind {
+        ObjectKind::Var | ObjectKind::Domain => name.to_owned(),
+        ObjectKind::Array | ObjectKind::Record => format!("{name}.{entry}"),
     }
 }
 

@@ -76,7 +76,7 @@ pub struct Object {
     pub index: Index,
     /// Name, as the manual's heading spells it.
     pub name: String,
-    /// Name in generated code, where the specification gives one.
+    /// Name in generated code and in references, where the specification gives one.
     pub identifier: Option<String>,
     /// Shape.
     pub kind: ObjectKind,
@@ -105,6 +105,16 @@ pub struct Object {
 }
 
 impl Object {
+    /// Whether references may call it so: by its name or its identifier.
+    pub(crate) fn is_called(&self, text: &str) -> bool {
+        self.name == text || self.identifier.as_deref() == Some(text)
+    }
+
+    /// What tells the object from all others of its device: the identifier, or else the name.
+    pub fn label(&self) -> &str {
+        self.identifier.as_ref().unwrap_or(&self.name)
+    }
+
     /// The name in an EDS, which is ASCII: transcribed, or the number where it has no form.
     pub fn eds_name(&self) -> Cow<'_, str> {
         name_in_ascii(&self.name, || format!("object {}", self.index))
@@ -192,7 +202,7 @@ pub struct Entry {
     pub writable_when: Option<Expr>,
     /// Most bytes of a string that the device can hold, where that is stated or follows from a constant.
     pub capacity: Option<u16>,
-    /// Name in generated code, where the specification gives one.
+    /// Name in generated code and in references, where the specification gives one.
     pub identifier: Option<String>,
     /// Error codes of the named type's bits, where the type is shared; by ascending bit.
     pub bit_errors: Vec<BitErrors>,
@@ -209,6 +219,16 @@ pub struct Entry {
 }
 
 impl Entry {
+    /// Whether references may call it so: by its name or its identifier.
+    pub(crate) fn is_called(&self, text: &str) -> bool {
+        self.name == text || self.identifier.as_deref() == Some(text)
+    }
+
+    /// What tells the entry from all others of its object: the identifier, or else the name.
+    pub fn label(&self) -> &str {
+        self.identifier.as_ref().unwrap_or(&self.name)
+    }
+
     /// An entry about which nothing more is said: without value, limits, mapping and storage, and in an EDS as it is.
     pub(crate) fn new(sub: SubIndex, name: String, data_type: DataType, access: Access, span: Span) -> Self {
         Self {

@@ -129,15 +129,28 @@ impl<'a, 't> Collector<'a, 't> {
     pub(super) fn named_entry(&mut self, at: At<'_, 't>, range: Range<usize>, name: &str, devices: &[&str]) {
         let written = &at.text.value[range.clone()];
         let by = if written == name { By::Name } else { By::Pattern };
+        let (mut object_by, mut entry_by) = (by, by);
         let (mut parts, mut objects, mut entries) = (None, Vec::new(), Vec::new());
         let (before, mut first) = (self.found.len(), None);
         for (device, id) in self.resolved.named(name, scope(devices)) {
             first.get_or_insert(id);
             let key = [device.key.as_str()];
             let Some(object) = device.objects.get(&id.index) else { continue };
-            parts.get_or_insert(object.name.len().min(name.len()));
+            let leads = |text: &&str| {
+                name.strip_prefix(*text).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            };
+            let texts = [Some(object.name.as_str()), object.identifier.as_deref()];
+            let length = texts.into_iter().flatten().find(leads).map_or(name.len(), str::len);
+            parts.get_or_insert(length);
+            let entry = object.entry(id.sub).filter(|_| length < name.len());
+            if by == By::Name && name[..length] != object.name {
+                object_by = By::Identifier;
+            }
+            if by == By::Name && entry.is_some_and(|entry| name[length + 1..] != entry.name) {
+                entry_by = By::Identifier;
+            }
             objects.extend(self.known.object(at.file(), id.index, Devices::Only(&key)));
-            if object.name.len() < name.len() {
+            if length < name.len() {
                 let subs = (id.index, id.sub, id.sub);
                 entries.extend(self.known.entries(at.file(), subs, Devices::Only(&key)));
             }
@@ -155,10 +168,10 @@ impl<'a, 't> Collector<'a, 't> {
         }
         // With placeholders written out, parts have other lengths: both are the whole.
         let object_end = parts.filter(|_| by == By::Name).map_or(range.end, |length| range.start + length);
-        self.add(at, range.start..object_end, Kind::Object, by, objects);
+        self.add(at, range.start..object_end, Kind::Object, object_by, objects);
         if object_end + 1 < range.end || by == By::Pattern && !entries.is_empty() {
             let entry = if by == By::Name { object_end + 1..range.end } else { range };
-            self.add(at, entry, Kind::Entry, by, entries);
+            self.add(at, entry, Kind::Entry, entry_by, entries);
         }
         if let Some(id) = first {
             self.are(before, id);

@@ -183,6 +183,7 @@ fn object<'t>(known: &mut Known<'t>, (first, last): (Index, Index), place: Span,
         devices,
         from: text_of(node, "from"),
         name: name.map(|name| name.value),
+        identifier: text_of(node, "identifier"),
         type_name: text_of(node, "type"),
         members,
         elements,
@@ -209,7 +210,14 @@ fn member<'t>(
         ..definition(Kind::Entry, name.unwrap_or(Spanned::new("", number.span)), number.span)
     };
     let id = known.add(spelt(entry, name.is_some(), || number.value.to_owned()));
-    Member { first, last, id, name: name.map(|name| name.value), type_name: text_of(node, "type") }
+    Member {
+        first,
+        last,
+        id,
+        name: name.map(|name| name.value),
+        identifier: text_of(node, "identifier"),
+        type_name: text_of(node, "type"),
+    }
 }
 
 /// A definition that has its number for a name where none is written.

@@ -140,6 +140,8 @@ pub struct Definition {
 pub enum By {
     /// By its name.
     Name,
+    /// By its identifier.
+    Identifier,
     /// By its name with a placeholder in it.
     Pattern,
     /// By its number.

@@ -17,6 +17,7 @@ pub(super) struct Described<'t> {
     /// The library that it is taken from.
     pub from: Option<&'t str>,
     pub name: Option<&'t str>,
+    pub identifier: Option<&'t str>,
     pub type_name: Option<&'t str>,
     /// Members, elements and sub-index 0.
     pub members: Vec<Member<'t>>,
@@ -30,6 +31,7 @@ pub(super) struct Member<'t> {
     pub last: SubIndex,
     pub id: DefinitionId,
     pub name: Option<&'t str>,
+    pub identifier: Option<&'t str>,
     pub type_name: Option<&'t str>,
 }
 
@@ -39,7 +41,7 @@ impl Member<'_> {
     }
 
     fn is_called(&self, name: &str) -> bool {
-        self.name.is_some_and(|known| fits(known, name))
+        [self.name, self.identifier].into_iter().flatten().any(|known| fits(known, name))
     }
 }
 
@@ -114,12 +116,11 @@ impl<'t> Objects<'t> {
             .filter(move |one| one.last >= index)
     }
 
-    /// The objects that are written with a name, or with one that it fits.
+    /// The objects that are written with a name or identifier, or with one that it fits.
     fn by_name<'s>(&'s self, name: &'s str, scope: Devices<'s>) -> impl Iterator<Item = &'s Described<'t>> {
-        self.described
-            .iter()
-            .filter(move |one| one.is_for(scope))
-            .filter(move |one| one.name.is_some_and(|known| fits(known, name)))
+        self.described.iter().filter(move |one| one.is_for(scope)).filter(move |one| {
+            [one.name, one.identifier].into_iter().flatten().any(|known| fits(known, name))
+        })
     }
 
     /// What a name stands for where no model says it.

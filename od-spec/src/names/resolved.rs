@@ -33,7 +33,7 @@ impl<'a> Resolved<'a> {
         let devices = self.devices.iter().filter(move |(device, _)| scope.has(&device.key));
         devices.filter_map(move |(device, names)| {
             let names = names.get_or_init(|| NamesOfDevice::new(device.objects.values()));
-            Some((*device, names.get(name)?))
+            Some((*device, names.get(name).one()?))
         })
     }
 

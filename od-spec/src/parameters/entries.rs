@@ -4,7 +4,7 @@ use crate::ast::Name;
 use crate::ast::Reference;
 use crate::diag::{Diagnostic, Suggestions, codes, shorten};
 use crate::model::{Dictionary, Entry, EntryId, Index, Object, SubIndex};
-use crate::resolve::{self, NotFound};
+use crate::resolve::{self, Namesake, NotFound};
 use crate::scalar;
 
 /// The entries of a device.
@@ -51,6 +51,7 @@ impl<'a> Entries<'a> {
                 );
                 unknown(name, format!("`{}` has no entry `{}`", device.key, shorten(text)), help)
             }
+            NotFound::Several(namesakes) => Box::new(resolve::ambiguous(text, &namesakes, name.span)),
             NotFound::Ambiguous { decimal, hexadecimal } => ambiguous(name, decimal, hexadecimal),
         })?;
         let Some(entry) = device.entry(id) else {
@@ -68,6 +69,10 @@ impl<'a> Entries<'a> {
         let text = name.value.as_str();
         let found = self.lookup.object(text).and_then(|index| self.device.objects.get(&index));
         found.ok_or_else(|| {
+            let namesakes = self.lookup.objects(text);
+            if !namesakes.is_empty() {
+                return Box::new(resolve::ambiguous(text, &namesakes, name.span));
+            }
             let names = self.device.objects.values().map(|object| object.name.as_str());
             let help = suggestions.nearest(text, names).map_or_else(
                 || "write an index in hexadecimal (`607D`), or an object's name".to_owned(),
@@ -82,7 +87,8 @@ impl<'a> Entries<'a> {
 fn member<'a>(object: &'a Object, name: &Name, suggestions: &mut Suggestions) -> Found<'a> {
     let text = name.value.as_str();
     let id = |sub: SubIndex| EntryId { index: object.index, sub };
-    let named = |entry: &&Entry| object.is_structured() && entry.name == text;
+    let named: Vec<&Entry> =
+        object.entries.iter().filter(|entry| object.is_structured() && entry.is_called(text)).collect();
     let alike = || {
         let mut alike =
             object.entries.iter().filter(|entry| entry.name.to_lowercase() == text.to_lowercase());
@@ -92,7 +98,16 @@ fn member<'a>(object: &'a Object, name: &Name, suggestions: &mut Suggestions) ->
         let sub = u8::try_from(scalar::integer(text).ok()?).ok()?;
         object.entry(SubIndex(sub))
     };
-    if let Some(entry) = numbered().or_else(|| object.entries.iter().find(named)).or_else(alike) {
+    if let (None, [_, _, ..]) = (numbered(), named.as_slice()) {
+        let namesake = |entry: &&Entry| {
+            let way = Some(entry.label()).filter(|label| *label != text);
+            let number = id(entry.sub).to_string();
+            Namesake { number, way: way.map_or_else(|| entry.sub.to_string(), ToOwned::to_owned) }
+        };
+        let namesakes: Vec<Namesake> = named.iter().map(namesake).collect();
+        return Err(Box::new(resolve::ambiguous(text, &namesakes, name.span)));
+    }
+    if let Some(entry) = numbered().or_else(|| named.first().copied()).or_else(alike) {
         return Ok((id(entry.sub), entry));
     }
     let message = format!("{} ({}) has no entry `{}`", object.index, object.name, shorten(text));

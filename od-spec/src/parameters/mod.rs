@@ -20,6 +20,7 @@ use crate::diag::{Diagnostics, Suggestions};
 use crate::eds::read::{FileUse, NodeDecl};
 use crate::model::{Author, Dictionary, EntryId, Index, Statement, SubIndex, System, Value};
 use crate::node_of_file::NodeOfFile;
+use crate::resolve::NotFound;
 use crate::source::{Span, Spanned};
 use crate::standard;
 
@@ -129,6 +130,15 @@ impl<'a> SettingNames<'a> {
     /// The entry that a text means.
     pub fn entry(&self, text: &str) -> Option<EntryId> {
         self.entries.lookup().find(text, &mut Suggestions::default()).ok()
+    }
+
+    /// What to write instead of a text that is the name of several entries or objects; empty for any other.
+    pub fn instead(&self, text: &str) -> Vec<String> {
+        let namesakes = match self.entries.lookup().find(text, &mut Suggestions::default()) {
+            Err(NotFound::Several(namesakes)) => namesakes,
+            Ok(_) | Err(NotFound::Unknown { .. } | NotFound::Ambiguous { .. }) => Vec::new(),
+        };
+        namesakes.into_iter().map(|one| one.way).collect()
     }
 
     /// What a setting is read as, without a look at whether it can be set: its entry and the value of that. What is wrong

@@ -32,7 +32,7 @@ pub(super) fn resolve(
             .and_then(|target| alias(one, &target, around, diagnostics));
         match object {
             Some(object) => made.push((*index, object)),
-            None => broken.add(*index, one.decl.entry.name.as_ref()),
+            None => broken.add(*index, one.decl.entry.names()),
         }
     }
     objects.extend(made);
@@ -57,7 +57,7 @@ impl<'a> Known<'a> {
         };
         for (index, one) in declared.iter().filter(|(_, one)| one.decl.alias.is_some()) {
             known.aliases.insert(*index, one.decl.index);
-            if let Some(name) = &one.decl.entry.name {
+            for name in one.decl.entry.names() {
                 known.aliases_by_name.entry(name.value.as_str()).or_insert(one.decl.index);
             }
         }

@@ -27,9 +27,9 @@ impl<'a> Assigned<'a> {
             };
             let keys: BTreeSet<&str> = on.iter().map(|key| key.value.as_str()).collect();
             if keys.is_subset(&known) && !keys.is_empty() {
-                for_nobody.own(decl.index, decl.entry.name.as_ref(), on);
+                for_nobody.own(decl.index, &decl.entry, on);
             } else {
-                for_nobody.add(decl.index.value, decl.entry.name.as_ref());
+                for_nobody.add(decl.index.value, decl.entry.names());
             }
             for key in keys {
                 let of_device: &mut Vec<(usize, &'a ObjectDecl)> = own.entry(key).or_default();

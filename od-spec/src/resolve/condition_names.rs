@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::bit_values;
-use super::refs::{Broken, Names};
+use super::refs::{Broken, Meant, Names};
 use super::scope::unknown;
 use crate::ast::Name;
 use crate::check::codes as rule_codes;
@@ -203,7 +203,7 @@ impl Lookup for OfDevice<'_, '_> {
         let id = described.names.find(&reference, exists, self.broken, self.diagnostics)?;
         let object = described.objects.get(&id.index).filter(|object| object.is_structured());
         // Its sub-index 0 is how many entries it has, which nobody means by its name.
-        if let Some(object) = object.filter(|object| id.sub.0 == 0 && object.name == name.text) {
+        if let Some(object) = object.filter(|object| id.sub.0 == 0 && object.is_called(name.text)) {
             self.diagnostics.push(whole_object(object, place));
             return None;
         }
@@ -214,9 +214,10 @@ impl Lookup for OfDevice<'_, '_> {
         // What cannot be found is reported by itself, and its values cannot be known.
         let entry = self.find(compared)?;
         let as_entry = self.own.names.get(name.text);
+        let is_entry = as_entry != Meant::Nothing;
         let Some(raw) = value(entry, name.text) else {
             let names = values(entry).iter().map(|value| value.name.as_str());
-            let meant = self.diagnostics.suggestions.nearest(name.text, names).filter(|_| as_entry.is_none());
+            let meant = self.diagnostics.suggestions.nearest(name.text, names).filter(|_| !is_entry);
             let Some(meant) = meant else { return self.entry(name).map(Operand::Entry) };
             let message = format!("`{}` is no value of `{}`", shorten(name.text), shorten(&entry.name));
             self.diagnostics.push(
@@ -225,7 +226,7 @@ impl Lookup for OfDevice<'_, '_> {
             );
             return None;
         };
-        if let Some(id) = as_entry {
+        if let Some(id) = as_entry.first() {
             let message = format!(
                 "`{}` is a value of `{}`, and the name of {id}",
                 shorten(name.text),

@@ -211,7 +211,7 @@ impl Builder<'_> {
     /// Remembers the objects that are meant for the device, but whose library is unknown.
     fn left_out(&mut self, written: &[&ObjectDecl], declared: &BTreeMap<Index, Declared<'_>>) {
         for decl in written.iter().filter(|decl| !declared.contains_key(&decl.index.value)) {
-            self.broken.add(decl.index.value, decl.entry.name.as_ref());
+            self.broken.add(decl.index.value, decl.entry.names());
         }
     }
 
@@ -224,7 +224,7 @@ impl Builder<'_> {
             }
             // An object may stand there without the entries that are wrong.
             if diagnostics.errors_found() > before || !self.objects.contains_key(index) {
-                self.broken.add(*index, one.decl.entry.name.as_ref());
+                self.broken.add(*index, one.decl.entry.names());
             }
         }
         diagnostics.now_about(None);

@@ -145,10 +145,15 @@ fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics
 /// The name in generated code; `None` also for one that is none, which is reported.
 pub(super) fn identifier(decl: &EntryDecl, diagnostics: &mut Diagnostics) -> Option<String> {
     let name = decl.identifier.as_ref()?;
+    is_identifier(name, diagnostics).then(|| name.value.clone())
+}
+
+/// Whether a text can name something in generated code; one that cannot is reported.
+pub(super) fn is_identifier(name: &Name, diagnostics: &mut Diagnostics) -> bool {
     let lower = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
     let plain = name.value.bytes().all(lower) && !name.value.contains("__") && !name.value.ends_with('_');
     if plain && name.value.starts_with(|first: char| first.is_ascii_lowercase()) {
-        return Some(name.value.clone());
+        return true;
     }
     diagnostics.push(
         Diagnostic::new(
@@ -158,7 +163,7 @@ pub(super) fn identifier(decl: &EntryDecl, diagnostics: &mut Diagnostics) -> Opt
         )
         .help("write lower-case words joined by single `_`, beginning with a letter: `speed_limit_2`"),
     );
-    None
+    false
 }
 
 /// The data type of an entry, and the enum or bit field that gives its values a meaning.

@@ -52,7 +52,7 @@ use libraries::Libraries;
 pub(crate) use likes::expand;
 use numbers::to_u32;
 use refs::NamesOf;
-pub(crate) use refs::{Lookup, Names as NamesOfDevice, NotFound};
+pub(crate) use refs::{Lookup, Names as NamesOfDevice, Namesake, NotFound, ambiguous};
 use scope::Scope;
 
 /// What a specification gives.

@@ -130,6 +130,9 @@ fn elements(
         let element = array.elements.iter().find(|(at, _)| at.value.0 == sub).map(|(_, element)| element);
         let mut merged = element.map_or_else(|| common.clone(), |element| element.over(&common));
         merged.default = merged.default.or(defaults.next());
+        if let Some(identifier) = &mut merged.identifier {
+            identifier.value = identifier.value.replace("{n}", &sub.to_string());
+        }
         let pattern = array.entry.name.as_ref().map(|pattern| pattern.value.replace("{n}", &sub.to_string()));
         let own_name = merged.name.as_ref().map(|name| name.value.replace("{n}", &sub.to_string()));
         let Some(name) = own_name.or(pattern) else {

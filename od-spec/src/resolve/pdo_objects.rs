@@ -37,11 +37,12 @@ struct Parameter {
 
 impl Parameter {
     fn into_entry(self, kept: Kept, languages: &[String], span: Span) -> Entry {
-        let Said { name: (name, named), access, min, max, .. } = self.said;
+        let Said { name: (name, named), identifier, access, min, max, .. } = self.said;
         let right = access.map_or(self.access, |access| access.value);
         let storage = kept.said.map_or(kept.usual, |said| said.value);
         let facts = [
             (Fact::Name, named),
+            (Fact::Identifier, identifier.as_ref().map(|identifier| identifier.span)),
             (Fact::Access, access.map(|access| access.span)),
             (Fact::LowLimit, min.map(|min| min.span)),
             (Fact::HighLimit, max.map(|max| max.span)),
@@ -52,6 +53,7 @@ impl Parameter {
             .filter_map(|(fact, span)| span.map(|span| (fact, Statement::written(span, span.file))))
             .chain(self.stated.map(|stated| (Fact::Default, stated)));
         Entry {
+            identifier: identifier.map(|identifier| identifier.value),
             default: self.default,
             low: min.map(|min| min.value),
             high: max.map(|max| max.value),
@@ -68,7 +70,7 @@ impl Parameter {
 
 fn object(
     index: u16,
-    name: String,
+    said: Said,
     parameters: Vec<Parameter>,
     described: &Described<'_>,
     span: Span,
@@ -76,8 +78,8 @@ fn object(
     let (kept, languages) = (described.kept, described.languages);
     Object {
         index: Index(index),
-        name,
-        identifier: None,
+        name: said.name.0,
+        identifier: said.identifier.map(|identifier| identifier.value),
         kind: ObjectKind::Record,
         origin: Origin::Pdo,
         profile: None,
@@ -161,8 +163,8 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Descri
     if let Some(count) = list.first_mut() {
         count.default = number(highest);
     }
-    let name = described.communication_name(pdo);
-    let mut object = object(pdo.communication_index(), name, list, described, pdo.span);
+    let said = described.communication_object(pdo);
+    let mut object = object(pdo.communication_index(), said, list, described, pdo.span);
     // What is said about a PDO stands at this object where the objects are written in full.
     object.about = pdo.about.clone();
     if let (Some(flag), Some(cob_id)) = (decl.no_rtr, object.entries.get_mut(1)) {
@@ -200,8 +202,8 @@ pub(super) fn mapping_object(
             about: Some(About::Mapping),
         }
     }));
-    let name = described.mapping_name(pdo);
-    let mut object = object(pdo.mapping_index(), name, list, described, pdo.span);
+    let said = described.mapping_object(pdo);
+    let mut object = object(pdo.mapping_index(), said, list, described, pdo.span);
     if let (Some(capacity), Some(count)) = (decl.capacity, object.entries.first_mut()) {
         count.facts.state(Fact::Capacity, stated(Some(capacity.span), decl));
     }

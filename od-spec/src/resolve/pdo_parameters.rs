@@ -36,6 +36,8 @@ pub(super) struct Described<'a> {
 pub(super) struct Said {
     /// The name, and where it is given.
     pub name: (String, Option<Span>),
+    /// The identifier, where one is given, and where.
+    pub identifier: Option<Spanned<String>>,
     pub access: Option<Spanned<Access>>,
     pub default: Option<Spanned<i128>>,
     pub min: Option<Spanned<i128>>,
@@ -61,17 +63,22 @@ impl<'a> Described<'a> {
         self.layers.into_iter().flatten().filter_map(|layer| layer.mapping.as_ref())
     }
 
-    /// The name of the communication parameter object.
-    pub(super) fn communication_name(&self, pdo: &Pdo) -> String {
+    /// What the communication parameter object is called.
+    pub(super) fn communication_object(&self, pdo: &Pdo) -> Said {
+        let index = pdo.communication_index();
         let pattern = self.communications().find_map(|layer| layer.name.as_ref());
-        let usual = usual_pdo_names::communication(self.direction);
-        self.fill(pattern, usual, pdo.communication_index(), None).0
+        let name = self.fill(pattern, usual_pdo_names::communication(self.direction), index, None);
+        let identifier = self.communications().find_map(|layer| layer.identifier.as_ref());
+        Said { name, identifier: self.filled(identifier, index, None), ..Said::default() }
     }
 
-    /// The name of the mapping parameter object.
-    pub(super) fn mapping_name(&self, pdo: &Pdo) -> String {
+    /// What the mapping parameter object is called.
+    pub(super) fn mapping_object(&self, pdo: &Pdo) -> Said {
+        let index = pdo.mapping_index();
         let pattern = self.mappings().find_map(|layer| layer.name.as_ref());
-        self.fill(pattern, usual_pdo_names::mapping(self.direction), pdo.mapping_index(), None).0
+        let name = self.fill(pattern, usual_pdo_names::mapping(self.direction), index, None);
+        let identifier = self.mappings().find_map(|layer| layer.identifier.as_ref());
+        Said { name, identifier: self.filled(identifier, index, None), ..Said::default() }
     }
 
     /// Whether the PDO has the reserved parameter.
@@ -86,7 +93,7 @@ impl<'a> Described<'a> {
         let pattern = layers.iter().find_map(|layer| layer.name.as_ref());
         let usual = parameter.usual_name(self.direction);
         let name = self.fill(pattern, usual, pdo.communication_index(), None);
-        Said { name, ..said(&layers) }
+        Said { name, ..self.said(&layers, pdo.communication_index(), None) }
     }
 
     /// What is said about sub-index 0 of the mapping parameter object.
@@ -95,7 +102,7 @@ impl<'a> Described<'a> {
             self.mappings().filter_map(|layer| layer.sub0.as_ref()).collect();
         let pattern = layers.iter().find_map(|layer| layer.name.as_ref());
         let name = self.fill(pattern, usual_pdo_names::MAPPED, pdo.mapping_index(), None);
-        Said { name, ..said(&layers) }
+        Said { name, ..self.said(&layers, pdo.mapping_index(), None) }
     }
 
     /// What is said about a mapped entry.
@@ -108,7 +115,30 @@ impl<'a> Described<'a> {
         let name = self.fill(pattern, usual_pdo_names::ENTRY, pdo.mapping_index(), Some(sub));
         let layers: Vec<&PdoParameterDecl> =
             self.mappings().filter_map(|layer| layer.entry.as_ref()).collect();
-        Said { name, ..said(&layers) }
+        Said { name, ..self.said(&layers, pdo.mapping_index(), Some(sub)) }
+    }
+
+    /// What several layers say beside the name, the nearest first.
+    fn said(&self, layers: &[&PdoParameterDecl], index: u16, entry: Option<u8>) -> Said {
+        let identifier = layers.iter().find_map(|layer| layer.identifier.as_ref());
+        Said {
+            name: (String::new(), None),
+            identifier: self.filled(identifier, index, entry),
+            access: layers.iter().find_map(|layer| layer.access),
+            default: layers.iter().find_map(|layer| layer.default),
+            min: layers.iter().find_map(|layer| layer.min),
+            max: layers.iter().find_map(|layer| layer.max),
+        }
+    }
+
+    fn filled(
+        &self,
+        pattern: Option<&Spanned<NamePattern>>,
+        index: u16,
+        entry: Option<u8>,
+    ) -> Option<Spanned<String>> {
+        let numbers = Numbers { pdo: self.number, index: Index(index), entry };
+        pattern.map(|pattern| Spanned::new(pattern.value.fill(numbers), pattern.span))
     }
 
     fn fill(
@@ -119,8 +149,8 @@ impl<'a> Described<'a> {
         entry: Option<u8>,
     ) -> (String, Option<Span>) {
         let numbers = Numbers { pdo: self.number, index: Index(index), entry };
-        match pattern {
-            Some(pattern) => (pattern.value.fill(numbers), Some(pattern.span)),
+        match self.filled(pattern, index, entry) {
+            Some(name) => (name.value, Some(name.span)),
             None => (NamePattern::parse(usual).map(|usual| usual.fill(numbers)).unwrap_or_default(), None),
         }
     }
@@ -155,16 +185,5 @@ pub(super) fn check_limits(described: &PdoParametersDecl, diagnostics: &mut Diag
             let fits = values::fits(limit.value, limit.span, data_type, limit.value);
             fits.unwrap_or_else(|diagnostic| diagnostics.push(*diagnostic));
         }
-    }
-}
-
-/// What several layers say beside the name, the nearest first.
-fn said(layers: &[&PdoParameterDecl]) -> Said {
-    Said {
-        name: (String::new(), None),
-        access: layers.iter().find_map(|layer| layer.access),
-        default: layers.iter().find_map(|layer| layer.default),
-        min: layers.iter().find_map(|layer| layer.min),
-        max: layers.iter().find_map(|layer| layer.max),
     }
 }

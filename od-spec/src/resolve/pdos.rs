@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::entries::is_identifier;
 use super::numbers::to_u8;
 use super::pdo_objects::{communication_object, mapping_object};
 use super::pdo_parameters::{Described, check_limits};
@@ -14,7 +15,7 @@ use crate::check::codes as rule_codes;
 use crate::decode::lexical::{self, NumberedRun};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::model::{
-    DataType, DeviceInfo, Direction, EntryId, Index, Mapped, Object, Pdo, PdoTarget, SubIndex, Value,
+    DataType, DeviceInfo, Direction, EntryId, Fact, Index, Mapped, Object, Pdo, PdoTarget, SubIndex, Value,
     usual_pdo_storage,
 };
 use crate::source::{Span, Spanned};
@@ -50,19 +51,35 @@ pub(super) fn resolve(
             pdo(one, info, &map, diagnostics).filter(|pdo| is_of_one_kind(pdo, &described, diagnostics));
         match made {
             Some(pdo) => {
-                parameters.extend([
+                let made = [
                     communication_object(&pdo, one, &described),
                     mapping_object(&pdo, one, &described, &map),
-                ]);
+                ];
+                for object in &made {
+                    check_identifiers(object, diagnostics);
+                }
+                parameters.extend(made);
                 pdos.push(pdo);
             }
-            None => parameter_indices(one).into_iter().for_each(|index| broken.add(index, None)),
+            None => parameter_indices(one).into_iter().for_each(|index| broken.add(index, [])),
         }
     }
     pdos.extend(objects.values().filter_map(|object| Pdo::of_objects(object, objects)));
     pdos.sort_by_key(|pdo| (pdo.direction, pdo.number));
     objects.extend(parameters.into_iter().map(|object| (object.index, object)));
     pdos
+}
+
+/// Reports identifiers of a parameter object that are none, each pattern once.
+fn check_identifiers(object: &Object, diagnostics: &mut Diagnostics) {
+    let of_entries = object.entries.iter().map(|entry| (&entry.identifier, entry.place(Fact::Identifier)));
+    for (identifier, place) in std::iter::once((&object.identifier, object.span)).chain(of_entries) {
+        if let Some(identifier) =
+            identifier.as_ref().filter(|_| diagnostics.is_new(codes::BAD_NOTATION, place))
+        {
+            is_identifier(&Spanned::new(identifier.clone(), place), diagnostics);
+        }
+    }
 }
 
 /// A PDO with a parameter object that is also written in full.

@@ -1,11 +1,12 @@
 //! References to entries, by index or by name.
 
 use std::cell::OnceCell;
-use std::collections::btree_map::Entry;
+use std::collections::btree_map;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::ast::Name;
+use crate::ast::{EntryDecl, Name};
+use crate::check::codes as rule_codes;
 use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::diag::{Suggestions, shorten};
@@ -61,25 +62,25 @@ impl Broken {
         Self { everywhere: Some(Arc::clone(everywhere)), ..Self::default() }
     }
 
-    pub(super) fn add(&mut self, index: Index, name: Option<&Name>) {
+    pub(super) fn add<'n>(&mut self, index: Index, names: impl IntoIterator<Item = &'n Name>) {
         self.indices.insert(index);
-        self.names.extend(name.map(|name| name.value.clone()));
+        self.names.extend(names.into_iter().map(|name| name.value.clone()));
     }
 
     /// Notes an object that only some devices have.
-    pub(super) fn own(&mut self, index: Spanned<Index>, name: Option<&Name>, devices: &[Name]) {
-        let object = name.map_or_else(|| index.value.to_string(), |name| name.value.clone());
+    pub(super) fn own(&mut self, index: Spanned<Index>, entry: &EntryDecl, devices: &[Name]) {
+        let object = entry.name.as_ref().map_or_else(|| index.value.to_string(), |name| name.value.clone());
         let devices = devices.iter().map(|key| key.value.clone()).collect();
         let owners = Owners { object, devices, place: index.span };
-        if let Some(name) = name {
+        for name in entry.names() {
             self.owned
                 .entry(name.value.clone())
                 .and_modify(|known| known.join(&owners))
                 .or_insert_with(|| owners.clone());
         }
         match self.owners.entry(index.value) {
-            Entry::Vacant(vacant) => drop(vacant.insert(owners)),
-            Entry::Occupied(mut known) => {
+            btree_map::Entry::Vacant(vacant) => drop(vacant.insert(owners)),
+            btree_map::Entry::Occupied(mut known) => {
                 known.get_mut().join(&owners);
                 known.get_mut().object = index.value.to_string();
             }
@@ -132,58 +133,113 @@ fn objects_in(reference: &str) -> impl Iterator<Item = &str> {
     reference.match_indices('.').map(|(dot, _)| &reference[..dot]).chain([reference])
 }
 
-/// Entries of one device by name: `controlword`, `drive data.error mask`.
+/// Entries of one device by name or identifier: `controlword`, `drive data.error mask`.
 pub(crate) struct Names<'a> {
-    /// By name; of one name, in the order in which they were given.
-    objects: Vec<&'a Object>,
+    /// By name and by identifier; of one text, in the order in which they were given.
+    objects: Vec<(&'a str, &'a Object)>,
     /// What can be written, for suggestions.
     all: OnceCell<Vec<String>>,
     /// For help.
     indices: OnceCell<BTreeSet<Index>>,
 }
 
+/// What a name stands for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Meant {
+    /// Nothing has it.
+    Nothing,
+    /// One entry.
+    One(EntryId),
+    /// Several entries, in the order in which they were given.
+    Several(Vec<EntryId>),
+}
+
+impl Meant {
+    /// The first entry, where there is any.
+    pub(crate) fn first(&self) -> Option<EntryId> {
+        match self {
+            Meant::One(id) => Some(*id),
+            Meant::Several(ids) => ids.first().copied(),
+            Meant::Nothing => None,
+        }
+    }
+
+    /// The entry, where it is one.
+    pub(crate) fn one(&self) -> Option<EntryId> {
+        match self {
+            Meant::One(id) => Some(*id),
+            Meant::Nothing | Meant::Several(_) => None,
+        }
+    }
+}
+
 impl<'a> Names<'a> {
     pub(crate) fn new(objects: impl IntoIterator<Item = &'a Object>) -> Self {
-        let mut objects: Vec<&Object> = objects.into_iter().collect();
-        objects.sort_by(|one, other| one.name.cmp(&other.name));
+        let texts = |object: &'a Object| {
+            let identifier = object.identifier.as_deref().filter(|identifier| *identifier != object.name);
+            std::iter::once(object.name.as_str()).chain(identifier).map(move |text| (text, object))
+        };
+        let mut objects: Vec<(&str, &Object)> = objects.into_iter().flat_map(texts).collect();
+        objects.sort_by_key(|(text, _)| *text);
         Self { objects, all: OnceCell::new(), indices: OnceCell::new() }
     }
 
     /// Whether there is an object of this index.
     fn has(&self, index: Index) -> bool {
-        let indices = self.indices.get_or_init(|| self.objects.iter().map(|object| object.index).collect());
+        let indices =
+            self.indices.get_or_init(|| self.objects.iter().map(|(_, object)| object.index).collect());
         indices.contains(&index)
     }
 
-    /// The objects of a name.
+    /// The objects of a name or identifier.
     fn named(&self, name: &str) -> impl Iterator<Item = &'a Object> {
-        let first = self.objects.partition_point(|object| object.name.as_str() < name);
-        self.objects[first..].iter().copied().take_while(move |object| object.name == name)
+        let first = self.objects.partition_point(|(text, _)| *text < name);
+        let named = self.objects[first..].iter().take_while(move |(text, _)| *text == name);
+        named.map(|(_, object)| *object)
     }
 
-    /// The entry of a name.
-    pub(crate) fn get(&self, name: &str) -> Option<EntryId> {
-        let whole = || Some(EntryId { index: self.named(name).next()?.index, sub: SubIndex(0) });
-        let member = || {
-            name.match_indices('.').find_map(|(dot, _)| {
-                let (object, entry) = (&name[..dot], &name[dot + 1..]);
-                self.named(object).filter(|object| object.is_structured()).find_map(|object| {
-                    let found = object.entries.iter().find(|one| one.name == entry)?;
-                    Some(EntryId { index: object.index, sub: found.sub })
-                })
+    /// What a name stands for.
+    pub(crate) fn get(&self, name: &str) -> Meant {
+        let whole = self.named(name).map(|object| EntryId { index: object.index, sub: SubIndex(0) });
+        let members = name.match_indices('.').flat_map(|(dot, _)| {
+            let (object, entry) = (&name[..dot], &name[dot + 1..]);
+            self.named(object).filter(|object| object.is_structured()).flat_map(move |object| {
+                let meant = object.entries.iter().filter(move |one| one.is_called(entry));
+                meant.map(|one| EntryId { index: object.index, sub: one.sub })
             })
+        });
+        let found: Vec<EntryId> = whole.chain(members).collect();
+        match found.as_slice() {
+            [] => Meant::Nothing,
+            [one] => Meant::One(*one),
+            _ => Meant::Several(found),
+        }
+    }
+
+    /// How several entries that a name leads to are told apart.
+    fn namesakes(&self, name: &str, ids: &[EntryId]) -> Vec<Namesake> {
+        let namesake = |id: &EntryId| {
+            let (_, object) = self.objects.iter().find(|(_, object)| object.index == id.index)?;
+            let member = object.entry(id.sub).filter(|_| !object.is_called(name) && object.is_structured());
+            let (label, number, index) = match member {
+                Some(entry) => {
+                    (format!("{}.{}", object.label(), entry.label()), id.to_string(), id.notation())
+                }
+                None => (object.label().to_owned(), id.index.to_string(), id.index.notation()),
+            };
+            Some(Namesake { number, way: if label == name { index } else { label } })
         };
-        whole().or_else(member)
+        ids.iter().filter_map(namesake).collect()
     }
 
     /// All names, ascending.
     fn all(&self) -> impl Iterator<Item = &str> {
         let all = self.all.get_or_init(|| {
             let mut all: Vec<String> = Vec::new();
-            for object in &self.objects {
-                all.push(object.name.clone());
+            for (text, object) in &self.objects {
+                all.push((*text).to_owned());
                 if object.is_structured() {
-                    all.extend(object.entries.iter().map(|entry| format!("{}.{}", object.name, entry.name)));
+                    all.extend(object.entries.iter().map(|entry| format!("{text}.{}", entry.name)));
                 }
             }
             all
@@ -201,6 +257,32 @@ impl<'a> Names<'a> {
     ) -> Option<EntryId> {
         find(&[self], reference, exists, broken, diagnostics)
     }
+}
+
+/// One of several things that have one name.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Namesake {
+    /// Its number, as messages write it.
+    pub number: String,
+    /// How a reference names it and nothing else.
+    pub way: String,
+}
+
+/// Reports a reference by a name that several things have.
+pub(crate) fn ambiguous(name: &str, of: &[Namesake], place: Span) -> Diagnostic {
+    let list = |words: Vec<String>, word: &str| match words.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} {word} {last}", rest.join(", ")),
+        _ => words.concat(),
+    };
+    let numbers = list(of.iter().map(|one| one.number.clone()).collect(), "and");
+    let ways = list(of.iter().map(|one| format!("`{}`", shorten(&one.way))).collect(), "or");
+    Diagnostic::new(
+        rule_codes::DUPLICATE_NAME,
+        place,
+        format!("`{}` is the name of {numbers}", shorten(name)),
+    )
+    .label("not clear which")
+    .help(format!("write {ways}"))
 }
 
 /// The entry that a reference names in the first of some devices that has it.
@@ -223,7 +305,22 @@ fn find(
         }
         return None;
     }
-    let found = devices.iter().find_map(|names| names.get(text));
+    let found =
+        devices.iter().map(|names| (names, names.get(text))).find(|(_, meant)| *meant != Meant::Nothing);
+    let found = match found {
+        Some((names, Meant::Several(ids))) => {
+            let namesakes = names.namesakes(text, &ids);
+            let ways: BTreeSet<&str> = namesakes.iter().map(|one| one.way.as_str()).collect();
+            // Where nothing tells them apart, that is reported at their names.
+            if namesakes.iter().any(|one| !lexical::looks_like_index(&one.way)) && ways.len() == ids.len() {
+                diagnostics.push(ambiguous(text, &namesakes, reference.span));
+                return None;
+            }
+            ids.first().copied()
+        }
+        Some((_, meant)) => meant.one(),
+        None => None,
+    };
     if found.is_none() && !broken.has_name(text) && diagnostics.is_new(codes::UNKNOWN_ENTRY, reference.span) {
         let message = format!("there is no entry named `{}`", shorten(text));
         let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, message);
@@ -244,7 +341,6 @@ fn find(
 /// The names of devices, each worked out when it is asked for.
 pub(super) struct NamesOf<'a> {
     devices: &'a [Dictionary],
-    all: OnceCell<Names<'a>>,
     single: BTreeMap<&'a str, OfDevice<'a>>,
     by_index: OnceCell<BTreeMap<Index, Vec<&'a Object>>>,
 }
@@ -261,7 +357,7 @@ impl<'a> NamesOf<'a> {
             .iter()
             .enumerate()
             .map(|(position, device)| (device.key.as_str(), OfDevice { position, names: OnceCell::new() }));
-        Self { devices, all: OnceCell::new(), single: single.collect(), by_index: OnceCell::new() }
+        Self { devices, single: single.collect(), by_index: OnceCell::new() }
     }
 
     /// Each of some devices with its names, in the order of the devices.
@@ -327,18 +423,8 @@ impl<'a> NamesOf<'a> {
         broken: &Broken,
         diagnostics: &mut Diagnostics,
     ) -> Option<EntryId> {
-        let nothing = |_| false;
-        match on {
-            Devices::All => {
-                let objects = || self.devices.iter().flat_map(|device| device.objects.values());
-                let all = self.all.get_or_init(|| Names::new(objects()));
-                find(&[all], reference, nothing, broken, diagnostics)
-            }
-            Devices::Only(_) => {
-                let names: Vec<&Names<'_>> = self.each(on).map(|(_, names)| names).collect();
-                find(&names, reference, nothing, broken, diagnostics)
-            }
-        }
+        let names: Vec<&Names<'_>> = self.each(on).map(|(_, names)| names).collect();
+        find(&names, reference, |_| false, broken, diagnostics)
     }
 }
 
@@ -365,8 +451,10 @@ impl<'a> Lookup<'a> {
             return Ok(id);
         }
         let names = self.names.get_or_init(|| Names::new(self.dictionary.objects.values()));
-        if let Some(id) = names.get(text) {
-            return Ok(id);
+        match names.get(text) {
+            Meant::One(id) => return Ok(id),
+            Meant::Several(ids) => return Err(NotFound::Several(names.namesakes(text, &ids))),
+            Meant::Nothing => {}
         }
         if let Some(HexReference::Ambiguous { decimal, hexadecimal }) = by_index {
             return Err(NotFound::Ambiguous { decimal, hexadecimal });
@@ -390,8 +478,10 @@ impl<'a> Lookup<'a> {
             return Some(id.index);
         }
         let names = self.names.get_or_init(|| Names::new(self.dictionary.objects.values()));
-        if let Some(object) = names.named(text).next() {
-            return Some(object.index);
+        let mut named = names.named(text);
+        if let Some(object) = named.next() {
+            // Which one is meant is not clear where there are more.
+            return named.next().is_none().then_some(object.index);
         }
         // As for entries, capitals do not matter where it is clear what is meant.
         let lower = text.to_lowercase();
@@ -400,11 +490,19 @@ impl<'a> Lookup<'a> {
         alike.next().is_none().then_some(only.index)
     }
 
+    /// The objects of a name that several have; empty for any other.
+    pub(crate) fn objects(&self, text: &str) -> Vec<Namesake> {
+        let names = self.names.get_or_init(|| Names::new(self.dictionary.objects.values()));
+        let named = names.named(text).map(|object| EntryId { index: object.index, sub: SubIndex(0) });
+        let named: Vec<EntryId> = named.collect();
+        if named.len() > 1 { names.namesakes(text, &named) } else { Vec::new() }
+    }
+
     fn alike(&self, names: &Names<'a>) -> &BTreeMap<String, Option<EntryId>> {
         self.alike.get_or_init(|| {
             let mut alike: BTreeMap<String, Option<EntryId>> = BTreeMap::new();
             for name in names.all() {
-                let id = names.get(name);
+                let id = names.get(name).one();
                 alike
                     .entry(name.to_lowercase())
                     .and_modify(|known| *known = known.filter(|known| Some(*known) == id))
@@ -419,6 +517,8 @@ impl<'a> Lookup<'a> {
 pub(crate) enum NotFound {
     /// Nothing has that index or name; the nearest name, if there is one.
     Unknown { nearest: Option<String> },
+    /// Several entries have the name.
+    Several(Vec<Namesake>),
     /// The sub-index is another number to those who count in hexadecimal.
     Ambiguous { decimal: EntryId, hexadecimal: EntryId },
 }

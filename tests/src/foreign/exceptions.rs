@@ -72,7 +72,7 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
     }
     match difference.fact {
         Stated::Name => {
-            repairs.iter().any(renamed).then_some("a name that clashes, or that an EDS cannot hold")
+            repairs.iter().any(renamed).then_some("a name that an EDS cannot hold")
         }
         Stated::Type | Stated::Default | Stated::LowLimit | Stated::HighLimit
             if is_counted && id.sub.0 == 0 && entry.data_type != DataType::Unsigned8 =>

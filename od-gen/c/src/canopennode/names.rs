@@ -10,7 +10,7 @@ use super::super::language::is_reserved;
 
 /// The name of an object, which stands behind `x1005_`.
 pub(super) fn of_object(object: &Object) -> String {
-    let name = camel(object.identifier.as_ref().unwrap_or(&object.name));
+    let name = camel(object.label());
     if name.is_empty() { "object".to_owned() } else { name }
 }
 
@@ -18,7 +18,7 @@ pub(super) fn of_object(object: &Object) -> String {
 pub(super) fn of_members(entries: &[Entry]) -> Vec<String> {
     let mut names: Vec<String> = entries
         .iter()
-        .map(|entry| match camel(entry.identifier.as_ref().unwrap_or(&entry.name)) {
+        .map(|entry| match camel(entry.label()) {
             name if name.is_empty() => format!("sub{}", entry.sub),
             name if is_reserved(&name) => format!("{name}_"),
             name => name,

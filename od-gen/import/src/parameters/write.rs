@@ -115,10 +115,10 @@ fn alone(
     node: u8,
 ) -> Item {
     let by_index = id.index.notation();
-    let keys = [spelled(&object.name), by_index];
+    let keys = [spelled(&object.name), spelled(object.label()), by_index];
     let ways = ways(id, entry, set);
     let found = pairs(&keys, &ways).find(|(key, way)| reads(names, node, key, way, None, id, set));
-    item(found.unwrap_or_else(|| (keys[1].clone(), raw(set))), id, entry)
+    item(found.unwrap_or_else(|| (keys[2].clone(), raw(set))), id, entry)
 }
 
 /// An entry below its object.
@@ -131,11 +131,11 @@ fn below(
     node: u8,
 ) -> Item {
     let key_of_object = object_key(names, object);
-    let keys = [spelled(&entry.name), id.sub.to_string()];
+    let keys = [spelled(&entry.name), spelled(entry.label()), id.sub.to_string()];
     let ways = ways(id, entry, set);
     let found =
         pairs(&keys, &ways).find(|(key, way)| reads(names, node, key, way, Some(&key_of_object), id, set));
-    item(found.unwrap_or_else(|| (keys[1].clone(), raw(set))), id, entry)
+    item(found.unwrap_or_else(|| (keys[2].clone(), raw(set))), id, entry)
 }
 
 /// Every key with every way to write the value, the nicest first.
@@ -143,13 +143,11 @@ fn pairs<'a>(keys: &'a [String], ways: &'a [Node]) -> impl Iterator<Item = (Stri
     keys.iter().flat_map(move |key| ways.iter().map(move |way| (key.clone(), way.clone())))
 }
 
-/// The key of an object: its name, where that names this object.
+/// The key of an object: its name or identifier, where that names this object.
 fn object_key(names: &SettingNames<'_>, object: &Object) -> String {
-    if names.object(&object.name) == Some(object.index) {
-        spelled(&object.name)
-    } else {
-        object.index.notation()
-    }
+    let label =
+        [&object.name, object.label()].into_iter().find(|text| names.object(text) == Some(object.index));
+    label.map_or_else(|| object.index.notation(), spelled)
 }
 
 /// What a file is read as.
@@ -270,6 +268,7 @@ fn item((key, way): (String, Node), id: EntryId, entry: &Entry) -> Item {
 
 /// How a person names an entry, if that is clear; else its index.
 fn name(device: &Dictionary, names: &SettingNames<'_>, id: EntryId) -> String {
-    let name = device.entry_name(id).filter(|name| names.entry(name) == Some(id));
+    let called = [device.entry_name(id), device.entry_label(id)];
+    let name = called.into_iter().flatten().find(|name| names.entry(name) == Some(id));
     name.unwrap_or_else(|| format!("{:04X}.{}", id.index.0, id.sub))
 }

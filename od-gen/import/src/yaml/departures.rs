@@ -58,7 +58,7 @@ fn whole(object: &Object, below: &Object, context: &Context<'_>) -> Vec<Item> {
     };
     let items = [
         (object.name != below.name).then(|| item(Fact::Name, Node::text(object.name.clone()))),
-        object.identifier.clone().map(|name| item(Fact::Identifier, Node::Plain(name))),
+        object.identifier.clone().map(|name| item(Fact::Identifier, Node::Text(name))),
         category.map(|category| item(Fact::Category, Node::plain(category.word()))),
         since.map(|since| item(Fact::Since, Node::Text(since))),
         links(object, below),

@@ -21,7 +21,7 @@ pub(super) fn keys(context: &Context<'_>, index: Index, entry: &Entry) -> Keys {
     let mut add = |fact, node: Option<Node>| keys.extend(node.map(|node| (fact, node)));
     let (low, high) = entry.limits();
     let limit = |limit: Option<Value>| limit.map(|limit| value(index, entry, &limit));
-    add(Fact::Identifier, entry.identifier.clone().map(Node::Plain));
+    add(Fact::Identifier, entry.identifier.clone().map(Node::Text));
     add(Fact::Type, Some(type_node(context, entry)));
     add(Fact::Unit, entry.unit.as_ref().map(|unit| Node::Text(context.unit_name(unit))));
     add(Fact::Access, Some(access(entry)));
@@ -130,7 +130,13 @@ pub(super) fn sub0(context: &Context<'_>, object: &Object, entry: &Entry) -> Key
         Fact::Name => entry.name != "number of elements",
         Fact::Access => entry.access != Access::Ro || entry.locked,
         Fact::Default => !follows,
-        Fact::Mapping | Fact::LowLimit | Fact::HighLimit | Fact::Storage | Fact::Eds | Fact::About => true,
+        Fact::Identifier
+        | Fact::Mapping
+        | Fact::LowLimit
+        | Fact::HighLimit
+        | Fact::Storage
+        | Fact::Eds
+        | Fact::About => true,
         // It is an UNSIGNED8, and has no other keys.
         _ => false,
     };

@@ -1,5 +1,7 @@
 //! What several entries have in common, said once.
 
+use std::collections::BTreeSet;
+
 use od_spec::model::Fact;
 
 use super::entry::Keys;
@@ -67,21 +69,38 @@ pub(super) fn members(list: Vec<(u8, Keys)>) -> Folded {
     folded
 }
 
-/// The pattern of names in which `{n}` is the sub-index, if at least two names or the only one follow it.
-pub(super) fn pattern(list: &[(u8, Keys)]) -> Option<String> {
-    let names = |sub: &u8, keys: &Keys| Some((*sub, text(get(keys, Fact::Name)?)?.to_owned()));
+/// What most elements of an array are called: the pattern of their names, and of their identifiers if all have one.
+pub(super) fn name_patterns(list: &[(u8, Keys)]) -> Vec<(Fact, String)> {
+    let has_identifier = |(_, keys): &(u8, Keys)| get(keys, Fact::Identifier).is_some();
+    let identifiers = pattern(list, Fact::Identifier).filter(|_| list.iter().all(has_identifier));
+    let found = [(Fact::Name, pattern(list, Fact::Name)), (Fact::Identifier, identifiers)];
+    found.into_iter().filter_map(|(fact, pattern)| Some((fact, pattern?))).collect()
+}
+
+/// The pattern in which `{n}` is the sub-index, if at least two names or the only one follow it; or the name that at least two
+/// have.
+fn pattern(list: &[(u8, Keys)], fact: Fact) -> Option<String> {
+    let names = |sub: &u8, keys: &Keys| Some((*sub, text(get(keys, fact)?)?.to_owned()));
     let names: Vec<(u8, String)> = list.iter().filter_map(|(sub, keys)| names(sub, keys)).collect();
+    let fits = |pattern: &str| {
+        names.iter().filter(|(sub, name)| pattern.replace("{n}", &sub.to_string()) == *name).count()
+    };
     let mut best: Option<(usize, String)> = None;
+    let mut offer = |count: usize, least: usize, pattern: &str| {
+        if count >= least && best.as_ref().is_none_or(|(most, _)| count > *most) {
+            best = Some((count, pattern.to_owned()));
+        }
+    };
     for (sub, name) in &names {
         for pattern in patterns(name, &sub.to_string()) {
-            let fits =
-                names.iter().filter(|(sub, name)| pattern.replace("{n}", &sub.to_string()) == *name).count();
-            if best.as_ref().is_none_or(|(most, _)| fits > *most) {
-                best = Some((fits, pattern));
-            }
+            offer(fits(&pattern), names.len().min(2), &pattern);
         }
     }
-    best.filter(|(fits, _)| *fits >= names.len().min(2)).map(|(_, pattern)| pattern)
+    let mut seen: BTreeSet<&str> = BTreeSet::new();
+    for (_, name) in names.iter().filter(|(_, name)| seen.insert(name)) {
+        offer(fits(name), 2, name);
+    }
+    best.map(|(_, pattern)| pattern)
 }
 
 /// The patterns that a name could come from: each place of the number in it that is a number by itself, the last first.

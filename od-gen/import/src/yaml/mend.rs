@@ -1,15 +1,13 @@
 //! Changes of a model so that the language takes it: the least that removes what a message is about.
 
-use od_spec::diag::{Code, Diagnostic};
+use od_spec::diag::Diagnostic;
 use od_spec::model::{
-    Dictionary, Entry, EntryId, Fact, Index, Mapped, ObjectKind, PdoMapping, Role, Storage, SubIndex, System,
-    Text, Value,
+    Dictionary, Entry, EntryId, Fact, Index, PdoMapping, Role, Storage, SubIndex, System, Text, Value,
 };
-use od_spec::rule_codes;
 use od_spec::wording::format_value;
 
 use super::emit::Written;
-use super::names::{apart, readable, shortened};
+use super::names::{readable, shortened};
 use super::node::Spot;
 use super::options::Place;
 use super::remarks::Repair;
@@ -39,15 +37,15 @@ impl Draft {
         let mut repair = match (spot, effort) {
             (Spot::EntryFact(id, _) | Spot::Entry(id), Effort::Object) => self.drop_object(id.index),
             (Spot::Object(index) | Spot::ObjectFact(index, _), Effort::Object) => self.drop_object(*index),
-            (Spot::EntryFact(id, fact), Effort::Fact) => self.mend_fact(*id, *fact, error),
-            (Spot::Entry(id), Effort::Fact) => self.mend_entry(*id, error),
+            (Spot::EntryFact(id, fact), Effort::Fact) => {
+                self.drop_fact(*id, *fact).or_else(|| self.mend_entry(*id))
+            }
+            (Spot::Entry(id), Effort::Fact) => self.mend_entry(*id),
             (Spot::ObjectFact(index, fact), Effort::Fact) => self.mend_object_fact(*index, *fact),
-            (Spot::Object(index), Effort::Fact) => self.mend_object(*index, error),
+            (Spot::Object(index), Effort::Fact) => self.mend_object(*index),
             (Spot::Type(name), _) => self.drop_type(name),
             (Spot::Unit(name), _) => self.drop_unit(name),
-            (Spot::Device | Spot::Pdo(..), _) => {
-                self.mend_device(error).or_else(|| self.mend_named(error, effort))
-            }
+            (Spot::Device | Spot::Pdo(..), _) => self.mend_header(),
             (Spot::Vendor, _) => self.mend_vendor(),
         }?;
         // What was written tells more than the model does, in the words of a specification.
@@ -66,23 +64,14 @@ impl Draft {
         object.entries.iter_mut().find(|entry| entry.sub == id.sub)
     }
 
-    fn mend_fact(&mut self, id: EntryId, fact: Fact, error: &Diagnostic) -> Option<Repair> {
-        match (fact, Role::of(id.index)) {
-            (Fact::Name, _) => self.rename_entry(id),
-            (Fact::Default, Role::PdoMapping) => self.mend_mapping(id, error),
-            (Fact::Type, _) if error.code == rule_codes::MIXED_TYPES => self.make_record(id.index),
-            _ => self.drop_fact(id, fact).or_else(|| self.mend_entry(id, error)),
-        }
-    }
-
-    /// The facts of an entry one after the other, those first that the message is likely to be about; at last the entry.
-    fn mend_entry(&mut self, id: EntryId, error: &Diagnostic) -> Option<Repair> {
+    /// The facts of an entry one after the other; at last the entry.
+    fn mend_entry(&mut self, id: EntryId) -> Option<Repair> {
         const ORDER: [Fact; 16] = [
+            Fact::Default,
             Fact::Eds,
             Fact::WriteCondition,
             Fact::BitErrors,
             Fact::Special,
-            Fact::Default,
             Fact::LowLimit,
             Fact::HighLimit,
             Fact::Mapping,
@@ -95,22 +84,7 @@ impl Draft {
             Fact::About,
             Fact::Access,
         ];
-        /// What is given up first.
-        const LIKELY: [(&Code, Fact); 6] = [
-            (rule_codes::NO_LENGTH, Fact::Mapping),
-            (rule_codes::MAPPING_AGAINST_ACCESS, Fact::Mapping),
-            (rule_codes::NOT_MAPPABLE, Fact::Mapping),
-            (rule_codes::SWAPPED_LIMITS, Fact::LowLimit),
-            (rule_codes::USELESS_LOCK, Fact::Access),
-            (rule_codes::STORED_CONSTANT, Fact::Storage),
-        ];
-        if is_about_name(error) {
-            return self.rename_entry(id);
-        }
-        let likely =
-            LIKELY.iter().find(|(code, _)| *code == error.code).map_or(Fact::Default, |(_, fact)| *fact);
-        let repair = [likely].iter().chain(&ORDER).find_map(|fact| self.drop_fact(id, *fact));
-        repair.or_else(|| self.drop_entry(id))
+        ORDER.iter().find_map(|fact| self.drop_fact(id, *fact)).or_else(|| self.drop_entry(id))
     }
 
     /// Leaves a fact of an entry out, if there is one to leave out.
@@ -195,16 +169,7 @@ impl Draft {
         super::entry::device_value(&self.system, &self.device, id.index, id.sub)
     }
 
-    fn mend_object(&mut self, index: Index, error: &Diagnostic) -> Option<Repair> {
-        if is_about_name(error) {
-            return self.rename_object(index);
-        }
-        if error.code == rule_codes::OUTSIDE_AREAS {
-            return self.drop_object(index);
-        }
-        if error.code == rule_codes::GRANULARITY_DIFFERS {
-            return self.mend_granularity();
-        }
+    fn mend_object(&mut self, index: Index) -> Option<Repair> {
         let subs: Vec<SubIndex> =
             self.device.objects.get(&index)?.entries.iter().map(|entry| entry.sub).collect();
         // An entry is left out only when none has a fact to leave out.
@@ -230,9 +195,6 @@ impl Draft {
     }
 
     fn mend_object_fact(&mut self, index: Index, fact: Fact) -> Option<Repair> {
-        if fact == Fact::Name {
-            return self.rename_object(index);
-        }
         let object = self.device.objects.get_mut(&index)?;
         let original = match fact {
             Fact::Identifier => object.identifier.take()?,
@@ -254,87 +216,6 @@ impl Draft {
             _ => return self.drop_object(index),
         };
         Some(repair(Place::Object(index), Some(fact), original, None))
-    }
-
-    /// A parameter that maps something is taken out of the mapping; the number of them is brought down to what can be used.
-    fn mend_mapping(&mut self, id: EntryId, error: &Diagnostic) -> Option<Repair> {
-        let number = EntryId { index: id.index, sub: SubIndex(0) };
-        let value = |draft: &mut Self, sub: u8| {
-            draft.entry(EntryId { index: id.index, sub: SubIndex(sub) })?.default.as_ref()?.integer()
-        };
-        let count = value(self, 0).and_then(|count| u8::try_from(count).ok());
-        let Some(count) = count else { return self.drop_fact(id, Fact::Default) };
-        if error.code == rule_codes::PDO_PARAMETERS_DIFFER && id.sub.0 > 0 && id.sub.0 <= count {
-            return self.mend_granularity();
-        }
-        if id.sub.0 == 0 || id.sub.0 > count {
-            if id.sub.0 > count {
-                return self.drop_fact(id, Fact::Default);
-            }
-            let usable = (1..=count).take_while(|sub| value(self, *sub).is_some_and(|raw| raw != 0)).count();
-            let usable = u8::try_from(usable).unwrap_or(count);
-            let fewer = if usable < count { usable } else { count.saturating_sub(1) };
-            if fewer == 0 {
-                return self.drop_fact(number, Fact::Default);
-            }
-            self.entry(number)?.default = Some(Value::Integer(fewer.into()));
-            return Some(repair(
-                Place::Entry(number),
-                Some(Fact::Default),
-                count.to_string(),
-                Some(fewer.to_string()),
-            ));
-        }
-        // What no number can be read from is no parameter.
-        let Some(parameter) = value(self, id.sub.0) else { return self.drop_fact(id, Fact::Default) };
-        let entry_at = |sub: u8| EntryId { index: id.index, sub: SubIndex(sub) };
-        for sub in id.sub.0..count {
-            let next = self.entry(entry_at(sub + 1)).and_then(|next| next.default.clone());
-            if let Some(entry) = self.entry(entry_at(sub)) {
-                entry.default = next;
-            }
-        }
-        if let Some(last) = self.entry(entry_at(count)) {
-            last.default = Some(Value::Integer(0));
-        }
-        if let Some(number) = self.entry(number) {
-            number.default = (count > 1).then(|| Value::Integer(i128::from(count) - 1));
-        }
-        Some(repair(Place::Entry(id), Some(Fact::Default), format!("0x{parameter:08X}"), None))
-    }
-
-    fn rename_entry(&mut self, id: EntryId) -> Option<Repair> {
-        if !self.device.objects.get(&id.index)?.is_structured() {
-            return self.rename_object(id.index);
-        }
-        let entry = self.entry(id)?;
-        let original = std::mem::take(&mut entry.name);
-        entry.name = apart(&original, id.index, Some(id.sub));
-        let now = entry.name.clone();
-        Some(repair(Place::Entry(id), Some(Fact::Name), original, Some(now)))
-    }
-
-    fn rename_object(&mut self, index: Index) -> Option<Repair> {
-        let object = self.device.objects.get_mut(&index)?;
-        let original = std::mem::take(&mut object.name);
-        object.name = apart(&original, index, None);
-        if !object.is_structured() {
-            let name = object.name.clone();
-            object.entries.iter_mut().for_each(|entry| entry.name.clone_from(&name));
-        }
-        let now = object.name.clone();
-        (now != original).then(|| repair(Place::Object(index), Some(Fact::Name), original, Some(now)))
-    }
-
-    fn make_record(&mut self, index: Index) -> Option<Repair> {
-        let object = self.device.objects.get_mut(&index).filter(|object| object.kind == ObjectKind::Array)?;
-        object.kind = ObjectKind::Record;
-        Some(repair(
-            Place::Object(index),
-            Some(Fact::ObjectType),
-            "ARRAY".to_owned(),
-            Some("RECORD".to_owned()),
-        ))
     }
 
     fn drop_entry(&mut self, id: EntryId) -> Option<Repair> {
@@ -372,59 +253,6 @@ impl Draft {
         (count > 0).then(|| repair(Place::Device, None, format!("the unit {name}"), None))
     }
 
-    fn mend_device(&mut self, error: &Diagnostic) -> Option<Repair> {
-        /// The rates that an EDS has keys for.
-        const STANDARD: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
-        let rates = &mut self.device.info.bit_rates;
-        if error.code == rule_codes::GRANULARITY_DIFFERS {
-            self.mend_granularity()
-        } else if error.code == rule_codes::NO_STANDARD_BIT_RATE {
-            let (kept, gone): (Vec<u16>, Vec<u16>) = rates.iter().partition(|rate| STANDARD.contains(rate));
-            *rates = kept;
-            (!gone.is_empty()).then(|| repair(Place::Device, Some(Fact::BitRates), format!("{gone:?}"), None))
-        } else if error.code == rule_codes::NO_BIT_RATE {
-            let had_none = rates.is_empty();
-            *rates = vec![125];
-            had_none.then(|| {
-                repair(Place::Device, Some(Fact::BitRates), "none".to_owned(), Some("[125]".to_owned()))
-            })
-        } else {
-            self.mend_header()
-        }
-    }
-
-    /// The entry that a message is about, where its place is the device: what the device fills in does not suit the entry.
-    fn mend_named(&mut self, error: &Diagnostic, effort: Effort) -> Option<Repair> {
-        let id = error.about?.entry();
-        self.device.entry(id)?;
-        match effort {
-            Effort::Fact => self.mend_entry(id, error),
-            Effort::Object => self.drop_object(id.index),
-        }
-    }
-
-    /// The device's granularity follows what its PDOs map.
-    fn mend_granularity(&mut self) -> Option<Repair> {
-        let is_variable = |index: &Index| {
-            let count = self.device.objects.get(index).and_then(|object| object.entry(SubIndex(0)));
-            count.is_some_and(|count| count.access.is_writable())
-        };
-        let mappings = self.device.objects.keys().filter(|index| Role::of(**index) == Role::PdoMapping);
-        let parameters =
-            self.device.entries().filter(|(id, ..)| Role::of(id.index) == Role::PdoMapping && id.sub.0 > 0);
-        let raw = parameters.filter_map(|(.., entry)| u32::try_from(entry.default.as_ref()?.integer()?).ok());
-        let whole_bytes = raw.filter_map(Mapped::from_parameter).all(|mapped| mapped.bits % 8 == 0);
-        let fits = match (mappings.clone().any(is_variable), whole_bytes) {
-            (false, _) => 0,
-            (true, true) => 8,
-            (true, false) => 1,
-        };
-        let original = std::mem::replace(&mut self.device.info.granularity, fits);
-        (original != fits).then(|| {
-            repair(Place::Device, Some(Fact::Granularity), original.to_string(), Some(fits.to_string()))
-        })
-    }
-
     /// The texts of the EDS's header without what readers misread, and as short as it has to be.
     fn mend_header(&mut self) -> Option<Repair> {
         let Dictionary { file, info, .. } = &mut self.device;
@@ -453,11 +281,6 @@ impl Draft {
         let now = self.system.vendor.name.clone();
         (now != original).then(|| repair(Place::Device, Some(Fact::Name), original, Some(now)))
     }
-}
-
-/// Whether another name puts it right.
-fn is_about_name(error: &Diagnostic) -> bool {
-    [rule_codes::DUPLICATE_NAME, rule_codes::NAME_NOT_FOR_EDS].contains(&error.code)
 }
 
 /// A repair whose reason the message gives.

@@ -33,9 +33,9 @@ mod value;
 use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
-use od_gen::plan::{Words, decided};
+use od_gen::plan::decided;
 use od_gen::rust::Rust;
-use od_spec::diag::{Diagnostic, Diagnostics, Severity};
+use od_spec::diag::{About, Diagnostic, Diagnostics, Severity};
 use od_spec::model::{Dictionary, EntryId, Index, System, Value};
 use od_spec::source::SourceMap;
 use od_spec::{LIBRARIES, Library, NoFiles, compile, library, library_in};
@@ -131,23 +131,15 @@ pub fn specification(
     names::settle(&mut draft.device, &mut remarks.repairs);
     // What code needs of it, as it is decided for code made from the EDS itself.
     draft.device = decided(&draft.system, &draft.device, &Rust).into_owned();
-    spell_identifiers(&mut draft.device);
-    let (plain, found) = mended(&mut draft, options, &mut remarks)?;
+    let found = mended(&mut draft, options, &mut remarks)?;
     let not_said = compare::differing(&draft.device, &found);
     left_out.extend(not_said.iter().map(|index| format!("facts about {index} for which there are no keys")));
-    let text = short(&draft, &found, options, &remarks).unwrap_or(plain).text;
+    let text = match short(&draft, &found, options, &remarks) {
+        Some(written) => written.text,
+        None => plain(&draft, options, &remarks)?,
+    };
     let allowed = remarks.allowed.into_keys().collect();
     Ok(Specification { text, repairs: remarks.repairs, allowed, left_out })
-}
-
-/// An identifier of a specification is spelled as one.
-fn spell_identifiers(device: &mut Dictionary) {
-    for object in device.objects.values_mut() {
-        let of_entries = object.entries.iter_mut().map(|entry| &mut entry.identifier);
-        for identifier in of_entries.chain([&mut object.identifier]) {
-            *identifier = identifier.take().map(|name| Words::of(&name).snake());
-        }
-    }
 }
 
 /// Takes out what a specification made of an EDS does not have; tells what that was.
@@ -206,37 +198,38 @@ fn name_device(draft: &mut Draft) {
     }
 }
 
-/// The errors of a text.
-fn errors(written: &Written) -> (Option<System>, Vec<Diagnostic>) {
+/// What a text gives: the model of its device, and everything that is said about it.
+fn compiled(written: &Written) -> (Option<Dictionary>, Diagnostics) {
     let mut sources = SourceMap::new();
     let root = sources.add("specification.od.yaml", written.text.as_str());
     let compiled = compile(&mut sources, root, &mut NoFiles);
-    let errors = compiled.diagnostics.iter().filter(|one| one.severity() == Severity::Error);
-    (compiled.system, errors.cloned().collect())
+    (compiled.system.and_then(|mut system| system.devices.pop()), compiled.diagnostics)
 }
 
-/// Changes the model until its plain text compiles; that text, and what it gives.
-fn mended(
-    draft: &mut Draft,
-    options: &Options,
-    remarks: &mut Remarks,
-) -> Result<(Written, Dictionary), Diagnostics> {
-    let mut last = Vec::new();
+/// The errors among messages.
+fn errors(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
+    diagnostics.iter().filter(|one| one.severity() == Severity::Error).collect()
+}
+
+/// Changes the model until its plain text can be read, and notes the rules that it breaks; what the text gives. Every rule may
+/// be broken at first, so that one compilation finds all that are.
+fn mended(draft: &mut Draft, options: &Options, remarks: &mut Remarks) -> Result<Dictionary, Diagnostics> {
+    let mut last = Diagnostics::new();
     for round in 0..ROUNDS {
-        let written = text::write(&draft.system, &draft.device, options, remarks, &Style::default());
-        let (system, errors) = errors(&written);
-        if let Some(found) = system.and_then(|mut system| system.devices.pop()) {
+        let open = remarks.with_all_rules_allowed();
+        let written = text::write(&draft.system, &draft.device, options, &open, &Style::default());
+        let (found, diagnostics) = compiled(&written);
+        if let Some(found) = found {
+            for finding in &diagnostics {
+                remarks.allow(finding, place(draft, &written, finding));
+            }
             follow(&mut draft.device, &found);
-            return Ok((written, found));
+            return Ok(found);
         }
         let effort = if round < ROUNDS_FOR_FACTS { Effort::Fact } else { Effort::Object };
-        let before = remarks.decisions();
-        let allowed: BTreeSet<&'static str> = remarks.allowed.keys().copied().collect();
+        let before = remarks.repairs.len();
         let mut mended: BTreeSet<usize> = BTreeSet::new();
-        for error in &errors {
-            if remarks.allow(error, blamed(draft, &written, error), &allowed) {
-                continue;
-            }
+        for error in errors(&diagnostics) {
             // Of several messages about one place, the first may take the others with it.
             let at = error.labels.first().map(|label| label.span.start as usize);
             let spot = at.and_then(|at| written.narrowest(at));
@@ -244,18 +237,21 @@ fn mended(
                 remarks.repairs.extend(draft.mend(&written, error, effort));
             }
         }
-        last = errors;
-        let after = remarks.decisions();
-        remarks.forget_what_is_gone(&draft.device);
-        if after == before {
+        last = diagnostics;
+        if remarks.repairs.len() == before {
             break;
         }
     }
-    let mut diagnostics = Diagnostics::new();
-    for error in last {
-        diagnostics.push(error);
+    Err(last)
+}
+
+/// The plain text, where no shorter one says the same.
+fn plain(draft: &Draft, options: &Options, remarks: &Remarks) -> Result<String, Diagnostics> {
+    let written = text::write(&draft.system, &draft.device, options, remarks, &Style::default());
+    match compiled(&written) {
+        (Some(_), _) => Ok(written.text),
+        (None, diagnostics) => Err(diagnostics),
     }
-    Err(diagnostics)
 }
 
 /// Takes the PDOs as they follow from the parameter objects that are left; they keep their descriptions.
@@ -292,11 +288,10 @@ fn short(draft: &Draft, plain: &Dictionary, options: &Options, remarks: &Remarks
     let mut style = Style { libraries, features: true, short: true, ..Style::default() };
     for _ in 0..ATTEMPTS {
         let written = text::write(&draft.system, &draft.device, options, remarks, &style);
-        let (system, errors) = errors(&written);
-        let found = system.as_ref().and_then(|system| system.devices.first());
-        let wrong: BTreeSet<Index> = match found {
+        let (found, diagnostics) = compiled(&written);
+        let wrong: BTreeSet<Index> = match &found {
             Some(found) => compare::differing(plain, found).into_iter().collect(),
-            None => errors.iter().filter_map(|error| blamed(draft, &written, error)).collect(),
+            None => errors(&diagnostics).iter().filter_map(|error| blamed(draft, &written, error)).collect(),
         };
         if found.is_some() && wrong.is_empty() {
             return Some(written);
@@ -308,8 +303,13 @@ fn short(draft: &Draft, plain: &Dictionary, options: &Options, remarks: &Remarks
     None
 }
 
-/// The object that a message about a text is about.
+/// The object that a message is about, wherever it stands.
 fn blamed(draft: &Draft, written: &Written, error: &Diagnostic) -> Option<Index> {
+    error.about.map(About::index).or_else(|| place(draft, written, error))
+}
+
+/// The object in whose text a message stands.
+fn place(draft: &Draft, written: &Written, error: &Diagnostic) -> Option<Index> {
     let at = error.labels.first()?.span.start as usize;
     match written.spot(at)? {
         Spot::Object(index) | Spot::ObjectFact(index, _) => Some(*index),

@@ -1,9 +1,13 @@
-//! Names of objects and entries that the language takes: each of its own, and such that an EDS can hold it.
+//! Names of objects and entries: kept as they are, with identifiers that tell equal ones apart. Only what a specification cannot
+//! hold is changed.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
+use od_gen::plan::{Words, tell_apart};
+use od_gen::rust::Rust;
 use od_spec::ascii::transliterate;
-use od_spec::model::{DataType, Dictionary, EntryId, Fact, Index, ObjectKind, SubIndex};
+use od_spec::model::{DataType, Dictionary, EntryId, Fact, Index, ObjectKind, usual_pdo_names};
+use od_spec::name_pattern::{NamePattern, Numbers};
 
 use super::options::Place;
 use super::remarks::Repair;
@@ -11,111 +15,99 @@ use super::remarks::Repair;
 /// Longest name, as the rule about names has it.
 const LONGEST: usize = 241;
 
-/// Gives every object and entry a name that the language takes.
+/// Gives every object and entry a name that a specification can hold, and an identifier where others have the name, too.
 pub(super) fn settle(device: &mut Dictionary, repairs: &mut Vec<Repair>) {
-    settle_entries(device, repairs);
-    settle_objects(device, repairs);
+    fit(device, repairs);
+    spell_identifiers(device);
+    identify_pdos(device);
+    for object in device.objects.values_mut() {
+        if DataType::from_name(object.label()).is_some() {
+            object.identifier = Some(format!("{} {:04X}", object.name, object.index.0));
+        }
+    }
+    tell_apart(device, &Rust);
+    spell_identifiers(device);
 }
 
-fn settle_objects(device: &mut Dictionary, repairs: &mut Vec<Repair>) {
-    let mut taken: BTreeSet<String> = BTreeSet::new();
-    let mut full: BTreeSet<String> = BTreeSet::new();
+/// An identifier of a specification is spelled as one.
+fn spell_identifiers(device: &mut Dictionary) {
     for object in device.objects.values_mut() {
-        let original = object.name.clone();
-        let plain = fitting(&original, || format!("object {}", object.index));
-        let entries = if object.is_structured() { object.entries.as_slice() } else { &[] };
-        let with_entries = |name: &str| {
-            let names = entries.iter().map(|entry| transliterate(&format!("{name}.{}", entry.name)));
-            names.collect::<Vec<_>>()
-        };
-        let is_free = |name: &str| {
-            let ascii = transliterate(name);
-            !taken.contains(&ascii)
-                && !full.contains(&ascii)
-                && DataType::from_name(name).is_none()
-                && !with_entries(name).iter().any(|full| taken.contains(full))
-        };
-        let index = object.index;
-        let suffixed = std::iter::once(format!(" ({index})"))
-            .chain((2u32..).map(|number| format!(" ({index}) {number}")));
-        let name = first_free(&plain, suffixed, is_free);
-        taken.insert(transliterate(&name));
-        full.extend(with_entries(&name));
-        if name != original {
-            repairs.push(renamed(Place::Object(index), &original, &name));
-            object.name.clone_from(&name);
+        let of_entries = object.entries.iter_mut().map(|entry| &mut entry.identifier);
+        for identifier in of_entries.chain([&mut object.identifier]) {
+            let spelled = identifier.take().map(|name| Words::of(&name).snake());
+            *identifier = spelled.filter(|name| !name.is_empty());
         }
-        if !object.is_structured() {
-            object.entries.iter_mut().for_each(|entry| entry.name.clone_from(&name));
+        // A VAR is its entry.
+        if let (ObjectKind::Var | ObjectKind::Domain, [only]) = (object.kind, object.entries.as_mut_slice()) {
+            only.identifier.clone_from(&object.identifier);
         }
     }
 }
 
-fn settle_entries(device: &mut Dictionary, repairs: &mut Vec<Repair>) {
-    for object in device.objects.values_mut().filter(|object| object.is_structured()) {
+/// Parameter objects of PDOs that have one name are identified by the numbers of their PDOs.
+fn identify_pdos(device: &mut Dictionary) {
+    let mut count: BTreeMap<String, usize> = BTreeMap::new();
+    for object in device.objects.values() {
+        *count.entry(transliterate(object.label())).or_default() += 1;
+    }
+    let mut identify = |index: u16, pdo: u16, usual: &str| {
+        let Some(object) = device.objects.get_mut(&Index(index)).filter(|object| object.is_structured())
+        else {
+            return;
+        };
+        let numbers = Numbers { pdo, index: object.index, entry: None };
+        let is_shared = count.get(&transliterate(object.label())).is_some_and(|count| *count > 1);
+        if let Some(usual) = NamePattern::parse(usual).ok().filter(|_| is_shared) {
+            object.identifier = Some(Words::of(&usual.fill(numbers)).snake());
+        }
+    };
+    for pdo in &device.pdos {
+        identify(pdo.communication_index(), pdo.number, usual_pdo_names::communication(pdo.direction));
+        identify(pdo.mapping_index(), pdo.number, usual_pdo_names::mapping(pdo.direction));
+    }
+}
+
+/// Takes out of names what a specification cannot hold.
+fn fit(device: &mut Dictionary, repairs: &mut Vec<Repair>) {
+    for object in device.objects.values_mut() {
         let (index, is_array) = (object.index, object.kind == ObjectKind::Array);
-        let alike: BTreeSet<String> = object
-            .entries
-            .iter()
-            .filter(|one| {
-                is_array && object.entries.iter().filter(|entry| entry.name == one.name).count() > 1
-            })
-            .map(|entry| entry.name.clone())
-            .collect();
-        let mut taken: BTreeSet<String> = BTreeSet::new();
+        let name = fitting(&object.name, || format!("object {index}"));
+        rename(&mut object.name, name, Place::Object(index), repairs);
+        if !object.is_structured() {
+            object.entries.iter_mut().for_each(|entry| entry.name.clone_from(&object.name));
+            continue;
+        }
         for entry in &mut object.entries {
-            let (original, sub) = (entry.name.clone(), entry.sub);
-            let mut plain = fitting(&original, || format!("entry {sub}"));
+            let sub = entry.sub;
+            let mut name = fitting(&entry.name, || format!("entry {sub}"));
             // In an array, `{n}` would stand for the sub-index.
             if is_array {
-                plain = plain.replace("{n}", "(n)");
+                name = name.replace("{n}", "(n)");
             }
-            // Elements of one name are numbered.
-            if alike.contains(&original) && sub.0 > 0 && !original.trim().is_empty() {
-                plain = cut(&plain, &format!(" {sub}"));
-            }
-            let suffixed = std::iter::once(format!(" (sub {sub})"))
-                .chain((2u32..).map(|number| format!(" (sub {sub}) {number}")));
-            let name = first_free(&plain, suffixed, |name| !taken.contains(&transliterate(name)));
-            taken.insert(transliterate(&name));
-            if name != original {
-                repairs.push(renamed(Place::Entry(EntryId { index, sub }), &original, &name));
-                entry.name = name;
-            }
+            rename(&mut entry.name, name, Place::Entry(EntryId { index, sub }), repairs);
         }
     }
 }
 
-fn renamed(place: Place, original: &str, now: &str) -> Repair {
-    let because = if original.trim().is_empty() {
-        "a name is wanted".to_owned()
-    } else if fitting(original, String::new) == original {
-        "each name stands for one thing".to_owned()
+fn rename(name: &mut String, now: String, place: Place, repairs: &mut Vec<Repair>) {
+    if *name == now {
+        return;
+    }
+    let because = if name.trim().is_empty() {
+        "a name is wanted"
+    } else if fitting(name, String::new) == *name {
+        "`{n}` stands for the sub-index"
     } else {
-        "no line of an EDS holds the name as it is".to_owned()
+        "no line of an EDS holds the name as it is"
     };
-    Repair {
+    let original = format!("\"{}\"", std::mem::replace(name, now.clone()));
+    repairs.push(Repair {
         place,
         fact: Some(Fact::Name),
-        original: format!("\"{original}\""),
-        now: Some(now.to_owned()),
-        because,
-    }
-}
-
-/// The name itself, or with the first ending that makes it free.
-fn first_free(name: &str, endings: impl Iterator<Item = String>, is_free: impl Fn(&str) -> bool) -> String {
-    let with_endings = endings.map(|ending| cut(name, &ending));
-    std::iter::once(name.to_owned())
-        .chain(with_endings)
-        .find(|name| is_free(name))
-        .unwrap_or_else(|| name.to_owned())
-}
-
-/// A name with an ending, cut so that both fit.
-fn cut(name: &str, ending: &str) -> String {
-    let kept = shortened(name, LONGEST.saturating_sub(ending.len()));
-    format!("{}{ending}", kept.trim_end())
+        original,
+        now: Some(now),
+        because: because.to_owned(),
+    });
 }
 
 /// The front of a text that has at most so many characters in an EDS.
@@ -135,19 +127,10 @@ fn fitting(text: &str, otherwise: impl Fn() -> String) -> String {
     let plain = readable(text);
     let ascii = transliterate(&plain);
     let has_form = ascii.chars().any(|c| c != '?') || plain.contains('?');
-    if plain.is_empty() || !has_form { otherwise() } else { cut(&plain, "") }
+    if plain.is_empty() || !has_form { otherwise() } else { shortened(&plain, LONGEST).trim_end().to_owned() }
 }
 
 /// A text on one line, without control characters.
 pub(super) fn readable(text: &str) -> String {
     text.replace(char::is_control, " ").trim().to_owned()
-}
-
-/// A name that nothing else has: with the index, or with the sub-index.
-pub(super) fn apart(name: &str, index: Index, sub: Option<SubIndex>) -> String {
-    let ending = sub.map_or_else(|| format!(" ({index})"), |sub| format!(" (sub {sub})"));
-    if name.ends_with(&ending) {
-        return sub.map_or_else(|| format!("object {index}"), |sub| format!("entry {sub}"));
-    }
-    cut(&readable(name), &ending)
 }

@@ -46,7 +46,7 @@ fn around(context: &Context<'_>, object: &Object) -> (Vec<Item>, Vec<Item>) {
         |fact: Fact, node: Node| Item::new(fact.word(), node).about(Spot::ObjectFact(object.index, fact));
     let before = [
         Some(item(Fact::Name, Node::text(object.name.clone()))),
-        object.identifier.clone().map(|name| item(Fact::Identifier, Node::Plain(name))),
+        object.identifier.clone().map(|name| item(Fact::Identifier, Node::Text(name))),
         object.category.map(|category| item(Fact::Category, Node::plain(category.word()))),
         object.since.clone().map(|since| item(Fact::Since, Node::Text(since))),
         links(object),
@@ -108,15 +108,15 @@ fn array(context: &Context<'_>, object: &Object, fold: bool, above: &mut Vec<Str
         items.push(Item::new("omit", Node::List(gaps)));
     }
     let mut inside = vec![Item::new("count", Node::plain(highest))];
-    let pattern = if fold { fold::pattern(&list) } else { None };
+    let patterns = if fold { fold::name_patterns(&list) } else { Vec::new() };
     let Folded { common, mut own } =
         if fold { fold::elements(list) } else { Folded { common: Vec::new(), own: list } };
-    if let Some(pattern) = pattern {
+    for (fact, pattern) in patterns {
         for (sub, keys) in &mut own {
             let name = Node::Text(pattern.replace("{n}", &sub.to_string()));
-            keys.retain(|key| *key != (Fact::Name, name.clone()));
+            keys.retain(|key| *key != (fact, name.clone()));
         }
-        inside.push(Item::new("name", Node::Text(pattern)));
+        inside.push(Item::new(fact.word(), Node::Text(pattern)));
     }
     inside.extend(ordered(common).into_iter().map(|(fact, node)| Item::new(fact.word(), node)));
     let elements = single(context, object, own, above);

@@ -9,6 +9,7 @@ use od_spec::model::{
 
 use super::context::Context;
 use super::eds::{self, EdsDefaults};
+use super::pdo_parameters;
 
 /// What `pdos:` has no word for.
 pub(super) fn obstacle(context: &Context<'_>, pdo: &Pdo) -> Option<String> {
@@ -67,6 +68,11 @@ fn of_mapped_entries(pdo: &Pdo, object: &Object) -> Option<String> {
     }
     if !pdo.variable_mapping && usize::from(pdo.capacity) != pdo.map.len() {
         return Some("they are fixed, and more than are in use".to_owned());
+    }
+    let mapped: Vec<&Entry> = object.entries.iter().skip(1).collect();
+    let is_identified = mapped.iter().any(|entry| entry.identifier.is_some());
+    if is_identified && pdo_parameters::identifier_pattern(pdo, &mapped).is_none() {
+        return Some("the identifiers of the entries follow no pattern".to_owned());
     }
     let of_entries = |entry: &Entry| of_entry(entry, expected(entry.sub.0), entry.default.is_some());
     object.entries.iter().find_map(of_entries).or_else(|| {

@@ -84,6 +84,7 @@ pub(super) fn of(context: &Context<'_>, direction: Direction, pdos: &[&Pdo]) -> 
 fn communication(direction: Direction, objects: &[(&Pdo, &Object)]) -> Parameters {
     let mut inside = Parameters::default();
     inside.add("name", object_names(objects, usual_pdo_names::communication(direction)));
+    inside.add("identifier", identifiers(objects));
     for kind in CommunicationParameter::ALL {
         let having = objects.iter().filter_map(|(pdo, object)| {
             let entry = object.entry(SubIndex(kind.sub()))?;
@@ -117,6 +118,7 @@ fn mapping(direction: Direction, objects: &[(&Pdo, &Object)]) -> Parameters {
     }
     let mut inside = Parameters::default();
     inside.add("name", object_names(objects, usual_pdo_names::mapping(direction)));
+    inside.add("identifier", identifiers(objects));
     inside.add("sub0", described(&numbers, Some(usual_pdo_names::MAPPED)));
     mapped_entries(&mut inside, &entries);
     inside
@@ -135,6 +137,35 @@ fn object_names<'a>(objects: &[(&Pdo, &'a Object)], usual: &str) -> Said {
         own: others.map(|named| (named.numbers.pdo, literal(named.name))).collect(),
         common: (found.text != usual).then(|| Node::text(found.text)),
     }
+}
+
+/// `identifier:` of the objects.
+fn identifiers(objects: &[(&Pdo, &Object)]) -> Said {
+    let named = objects.iter().filter_map(|(pdo, object)| {
+        let numbers = Numbers { pdo: pdo.number, index: object.index, entry: None };
+        Some(Named { numbers, name: object.identifier.as_deref()? })
+    });
+    let list: Vec<Named<'_>> = named.collect();
+    let found = most_common(&list, None, Preferred::Pdo).filter(|_| list.len() == objects.len());
+    match found.filter(|found| list.iter().all(|named| found.gives(named))) {
+        Some(found) => Said { common: Some(Node::text(found.text)), own: BTreeMap::new() },
+        None => {
+            let own = list.iter().map(|named| (named.numbers.pdo, literal(named.name)));
+            Said { common: None, own: own.collect() }
+        }
+    }
+}
+
+/// The pattern of the identifiers of the entries that one PDO maps; `None` where not all have one that follows it.
+pub(super) fn identifier_pattern(pdo: &Pdo, entries: &[&Entry]) -> Option<String> {
+    let named = entries.iter().filter_map(|entry| {
+        let numbers =
+            Numbers { pdo: pdo.number, index: Index(pdo.mapping_index()), entry: Some(entry.sub.0) };
+        Some(Named { numbers, name: entry.identifier.as_deref()? })
+    });
+    let list: Vec<Named<'_>> = named.collect();
+    let found = most_common(&list, None, Preferred::Entry).filter(|_| list.len() == entries.len())?;
+    list.iter().all(|named| found.gives(named)).then_some(found.text)
 }
 
 /// A parameter that each PDO has once at most; without a usual name, the name is said.
@@ -166,7 +197,24 @@ fn mapped_entries(inside: &mut Parameters, list: &[Parameter<'_>]) {
         let sub = named.numbers.entry.unwrap_or_default();
         singles.get(&sub).unwrap_or(&found).gives(named)
     };
-    let (common, mut own) = facts(list);
+    let (mut common, mut own) = facts(list);
+    let of_pdos = list.chunk_by(|one, next| one.pdo.number == next.pdo.number);
+    let patterns: BTreeMap<u16, Option<String>> = of_pdos
+        .filter_map(|of_one| {
+            let entries: Vec<&Entry> = of_one.iter().map(|parameter| parameter.entry).collect();
+            let pdo = of_one.first()?.pdo;
+            Some((pdo.number, identifier_pattern(pdo, &entries)))
+        })
+        .collect();
+    let identifier = |pattern: &String| Item::new("identifier", Node::text(pattern.clone()));
+    let first = patterns.values().next().cloned().flatten();
+    if patterns.values().all(|pattern| *pattern == first) {
+        common.splice(0..0, first.iter().map(identifier));
+    } else {
+        for (number, pattern) in &patterns {
+            own.entry(*number).or_default().splice(0..0, pattern.iter().map(identifier));
+        }
+    }
     let mut said = Said {
         common: composed((found.text != usual).then(|| Node::text(found.text.clone())), common),
         own: BTreeMap::new(),
@@ -231,7 +279,11 @@ fn composed(name: Option<Node>, facts: Vec<Item>) -> Option<Node> {
 /// What is said beside names: what all have alike, and by PDO what they have not.
 fn facts(list: &[Parameter<'_>]) -> (Vec<Item>, BTreeMap<u16, Vec<Item>>) {
     type Fact = fn(&Parameter<'_>) -> Option<Node>;
-    let each: [(&str, Fact); 4] = [
+    let each: [(&str, Fact); 5] = [
+        ("identifier", |one| {
+            let is_mapped = Role::of(Index(one.index)) == Role::PdoMapping && one.entry.sub.0 > 0;
+            one.entry.identifier.as_deref().filter(|_| !is_mapped).map(literal)
+        }),
         ("access", |one| {
             (one.entry.access != one.usual_access).then(|| Node::plain(one.entry.access.word()))
         }),

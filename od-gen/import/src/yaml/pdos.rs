@@ -1,6 +1,6 @@
 //! `pdos:`: PDOs of which the parameter objects are made.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::model::{DataType, Direction, EntryId, Index, Pdo, PdoTarget, SubIndex, Value};
 
@@ -151,12 +151,17 @@ impl Names {
         let is_made = |index: u16| {
             pdos.iter().any(|pdo| [pdo.communication_index(), pdo.mapping_index()].contains(&index))
         };
-        let mut ids: BTreeMap<String, Vec<EntryId>> = BTreeMap::new();
+        let mut ids: BTreeMap<String, BTreeSet<EntryId>> = BTreeMap::new();
         for object in context.device.objects.values().filter(|object| !is_made(object.index.0)) {
-            let id = |sub| EntryId { index: object.index, sub };
-            ids.entry(object.name.clone()).or_default().push(id(SubIndex(0)));
+            let mut add = |text: String, sub| {
+                ids.entry(text).or_default().insert(EntryId { index: object.index, sub });
+            };
+            for name in [&object.name, object.label()] {
+                add(name.to_owned(), SubIndex(0));
+            }
             for entry in object.entries.iter().filter(|_| object.is_structured()) {
-                ids.entry(format!("{}.{}", object.name, entry.name)).or_default().push(id(entry.sub));
+                add(format!("{}.{}", object.name, entry.name), entry.sub);
+                add(format!("{}.{}", object.label(), entry.label()), entry.sub);
             }
         }
         let looks_like_index = |name: &str| {
@@ -170,8 +175,15 @@ impl Names {
                 && !looks_like_index(name)
                 && DataType::from_name(name).is_none()
         };
-        let unique = ids.into_iter().filter(|(name, ids)| ids.len() == 1 && is_plain(name));
-        Self { by_id: unique.filter_map(|(name, ids)| Some((*ids.first()?, name))).collect() }
+        let named = |text: &String| ids.get(text).filter(|ids| ids.len() == 1 && is_plain(text));
+        let mut by_id = BTreeMap::new();
+        for (id, ..) in context.device.entries() {
+            let called = [context.device.entry_name(id), context.device.entry_label(id)];
+            let text =
+                called.into_iter().flatten().find(|text| named(text).is_some_and(|ids| ids.contains(&id)));
+            by_id.extend(text.map(|text| (id, text)));
+        }
+        Self { by_id }
     }
 
     fn node(&self, id: EntryId) -> Node {

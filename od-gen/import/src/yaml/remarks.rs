@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use od_spec::diag::Diagnostic;
-use od_spec::model::{Dictionary, Fact, Index};
+use od_spec::diag::{Diagnostic, Severity};
+use od_spec::model::{Fact, Index};
 
 use super::options::Place;
 
@@ -53,49 +53,31 @@ pub(super) struct Remarks {
     pub repairs: Vec<Repair>,
     /// Rules that the model breaks, by code.
     pub allowed: BTreeMap<&'static str, Broken>,
-    /// Codes that reading says as well: what cannot be read cannot be allowed.
-    of_reading: BTreeSet<&'static str>,
 }
 
 impl Remarks {
-    /// Allows a rule to be broken, at an object if the finding is about one; `false` where it is no rule's finding, where names have to differ, and where it was
-    /// allowed before and that was not enough.
-    pub(super) fn allow(
-        &mut self,
-        error: &Diagnostic,
-        index: Option<Index>,
-        before: &BTreeSet<&'static str>,
-    ) -> bool {
-        let is_name = error.code == od_spec::rule_codes::DUPLICATE_NAME;
-        if before.contains(error.code.id) {
-            self.allowed.remove(error.code.id);
-            self.of_reading.insert(error.code.id);
-        }
-        if is_name || !od_spec::can_be_allowed(error.code) || self.of_reading.contains(error.code.id) {
-            return false;
+    /// The same where every rule may be broken.
+    pub(super) fn with_all_rules_allowed(&self) -> Self {
+        let rules = od_spec::all_codes()
+            .into_iter()
+            .filter(|code| code.severity == Severity::Error && od_spec::can_be_allowed(code));
+        let allowed = rules.map(|code| (code.id, Broken { first: code.title.to_owned(), at: None }));
+        Self { repairs: self.repairs.clone(), allowed: allowed.collect() }
+    }
+
+    /// Allows a rule to be broken, at an object if the finding stands at one. What is no error of a rule needs no leave.
+    pub(super) fn allow(&mut self, finding: &Diagnostic, index: Option<Index>) {
+        if finding.code.severity != Severity::Error {
+            return;
         }
         let broken = self
             .allowed
-            .entry(error.code.id)
-            .or_insert_with(|| Broken { first: error.message.clone(), at: Some(BTreeSet::new()) });
+            .entry(finding.code.id)
+            .or_insert_with(|| Broken { first: finding.message.clone(), at: Some(BTreeSet::new()) });
         match index {
             Some(index) => broken.at.iter_mut().for_each(|at| at.extend([index])),
             None => broken.at = None,
         }
-        true
-    }
-
-    /// Nothing is allowed at objects that are gone.
-    pub(super) fn forget_what_is_gone(&mut self, device: &Dictionary) {
-        for broken in self.allowed.values_mut() {
-            broken.at.iter_mut().for_each(|at| at.retain(|index| device.objects.contains_key(index)));
-        }
-        self.allowed.retain(|_, broken| broken.at.as_ref().is_none_or(|at| !at.is_empty()));
-    }
-
-    /// What has been decided so far; it grows with every decision.
-    pub(super) fn decisions(&self) -> (usize, usize, usize) {
-        (self.repairs.len(), self.of_reading.len(), self.allowed.len())
     }
 
     /// What was changed, by place, in the order in which it was.

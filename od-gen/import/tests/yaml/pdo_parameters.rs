@@ -132,7 +132,7 @@ fn a_pdo_has_names_of_its_own() {
 }
 
 #[test]
-fn names_that_clash_get_their_index_and_nothing_else() {
+fn names_that_several_have_stay_and_get_identifiers() {
     let mut system = device(3);
     name(&mut system, |_, index, sub| match sub {
         None => format!("PDO {:X}", index >> 9),
@@ -141,20 +141,37 @@ fn names_that_clash_get_their_index_and_nothing_else() {
         Some(_) => "mapped".to_owned(),
     });
     let specification = written(&system);
+    assert_eq!(specification.repairs, []);
     assert!(!specification.text.contains("in full"), "{}", specification.text);
-    for line in ["name: \"PDO A ({index})\"", "entry: \"mapped (sub {n})\"", "entries: {1: mapped}"] {
+    for line in [
+        "name: PDO A",
+        "identifier: \"rpdo_{pdo}_communication_parameter\"",
+        "entry: {name: mapped, identifier: \"mapped_{n}\"}",
+    ] {
         assert!(specification.text.contains(line), "{line}:\n{}", specification.text);
     }
     let again = model(&specification.text);
-    for index in [0x1400, 0x1600, 0x1800, 0x1A00] {
-        let named = |index: u16| again.devices[0].objects[&Index(index)].name.clone();
-        assert_eq!(named(index), format!("PDO {:X}", index >> 9));
-        assert_eq!(named(index + 2), format!("PDO {:X} ({:X}h)", index >> 9, index + 2));
+    for index in [0x1400, 0x1402, 0x1600, 0x1602, 0x1800, 0x1802, 0x1A00, 0x1A02] {
+        assert_eq!(again.devices[0].objects[&Index(index)].name, format!("PDO {:X}", index >> 9));
     }
-    assert_eq!(written(&again).text.lines().count(), {
-        let said = |line: &&str| !line.trim_start().starts_with('#');
-        specification.text.lines().filter(said).count()
-    });
+    assert_eq!(written(&again).text, specification.text);
+}
+
+#[test]
+fn identifiers_of_parameter_objects_are_kept() {
+    let mut system = device(2);
+    object(&mut system, 0x1401).identifier = Some("mine".to_owned());
+    entry(&mut system, 0x1400, 2).identifier = Some("kind".to_owned());
+    for sub in 1..=3 {
+        entry(&mut system, 0x1601, sub).identifier = Some(format!("line_{sub}"));
+    }
+    let text = kept(&system);
+    for own in [
+        "parameters: {communication: {transmission: {identifier: kind}}}",
+        "parameters: {communication: {identifier: mine}, mapping: {entry: {identifier: \"line_{n}\"}}}",
+    ] {
+        assert!(text.contains(own), "{own}:\n{text}");
+    }
 }
 
 #[test]
@@ -250,7 +267,7 @@ fn what_has_no_key_stands_in_full_and_says_why() {
         (|s| entry(s, 0x1401, 0).default = Some(Value::Integer(3)), "sub-index 0 is not the highest"),
         (|s| entry(s, 0x1401, 2).eds.no_write = true, "has flags"),
         (|s| entry(s, 0x1601, 1).default = Some(Value::Integer(0x2001_0010)), "which has another length"),
-        (|s| object(s, 0x1401).identifier = Some("mine".to_owned()), "what no key says"),
+        (|s| entry(s, 0x1601, 2).identifier = Some("mine".to_owned()), "follow no pattern"),
         (|s| drop(object(s, 0x1401).entries.remove(2)), "sub-index 2 is missing"),
     ];
     for (change, reason) in changes {

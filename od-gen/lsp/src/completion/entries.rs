@@ -1,6 +1,7 @@
 //! Entries and objects, by name or by index, with their facts.
 
 use lsp_types::CompletionItemKind;
+use od_spec::SettingNames;
 use od_spec::model::{DataType, Dictionary, Direction, Entry, EntryId, Object, PdoMapping};
 use od_spec::names::Step;
 
@@ -56,12 +57,15 @@ fn references(wanted: &Wanted<'_>, before: &str, fits: impl Fn(&Entry) -> bool) 
     let mut offers: Vec<Offer> = Vec::new();
     let mut seen = std::collections::BTreeSet::new();
     for device in devices {
+        let names = SettingNames::of(device);
         for (id, object, entry) in device.entries() {
             // How many elements there are is hardly ever meant.
             if object.is_structured() && id.sub.0 == 0 || !fits(entry) {
                 continue;
             }
-            let name = device.entry_name(id).unwrap_or_default();
+            // A name that others have, too, leads to none of them.
+            let name = device.entry_name(id).filter(|name| names.instead(name).is_empty());
+            let name = name.or_else(|| device.entry_label(id)).unwrap_or_default();
             let number = reference(object, id);
             if !seen.insert((number.clone(), name.clone())) {
                 continue;

@@ -67,6 +67,9 @@ fn named(snapshot: &Snapshot, position: Position) -> Result<(Cursor<'_>, Span), 
             By::Pattern => {
                 return Err("a number stands in this name; rename it where it is defined".to_owned());
             }
+            By::Identifier => {
+                return Err("this is an identifier; edit it where it is defined".to_owned());
+            }
             By::Number => return Err("this is a number; put the cursor on the name".to_owned()),
             By::Word => return Err("this word belongs to the language, or names a file".to_owned()),
         },

@@ -152,3 +152,32 @@ fn every_name_of_the_shipped_specifications_can_be_another_and_what_it_was() {
         }
     }
 }
+
+#[test]
+fn a_reference_by_identifier_stays_when_the_name_changes() {
+    const TEXT: &str = "od-spec: 1\ntitle: Lamp\nuses: [cia301]\n\
+        devices: {lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}}\nobjects:\n  \
+        0x2000: {name: level, identifier: upper, type: unsigned8, access: rw, pdo: receive}\n  \
+        0x2001: {name: level, identifier: lower, type: unsigned8, access: rw, pdo: receive}\n  \
+        0x2002: {name: list, array: {count: 2, name: element, identifier: 'element_{n}', type: unsigned8, access: rw, pdo: receive}}\n\
+        pdos: {lamp: {receive: {1: {map: [lower, list.element_2]}}}}\n";
+    let read = read(&BTreeMap::from([("lamp.od.yaml".to_owned(), TEXT.to_owned())]), "lamp.od.yaml");
+    assert!(read.system.is_some(), "{:?}", read.said);
+    let at = |from: &str| {
+        let start = u32::try_from(TEXT.find(from).unwrap()).unwrap();
+        match read.names.at(read.root, start) {
+            Some(Found::Reference(one)) => (one.by, one.entry.map(|id| id.to_string())),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(at("lower, list"), (By::Identifier, Some("2001h".to_owned())));
+    assert_eq!(at("list.element_2"), (By::Name, Some("2002h.2".to_owned())));
+    assert_eq!(at("element_2]"), (By::Identifier, Some("2002h.2".to_owned())));
+    let lower = read.names.definitions().find(|(_, one)| {
+        one.span.start > 0 && one.key.start == { u32::try_from(TEXT.find("0x2001").unwrap()).unwrap() }
+    });
+    let renamed = BTreeMap::from([(lower.unwrap().0, "depth".to_owned())]);
+    let changes = edits(&read.sources, &read.names, &renamed).unwrap();
+    let text = &changed(&read, &changes)["lamp.od.yaml"];
+    assert_eq!(*text, TEXT.replace("name: level, identifier: lower", "name: depth, identifier: lower"));
+}

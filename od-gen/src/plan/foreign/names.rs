@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use od_spec::model::{Dictionary, Entry, EntryId, Index, Object, ObjectKind};
+use od_spec::model::{Dictionary, EntryId, Index, Object, ObjectKind};
 
 use crate::plan::language::{Companion, Language, Role, ScopeKind};
 use crate::plan::names::Words;
@@ -110,7 +110,7 @@ impl<'l> Claims<'l> {
     fn of_objects(device: &Dictionary, language: &'l dyn Language) -> Self {
         let mut claims = Self::new(language);
         for object in device.objects.values() {
-            let words = words(object);
+            let words = Words::of(object.label());
             let named = Named::Object(object.index);
             let accessors = (ScopeKind::Accessors, None);
             let mut functions = vec![(named, language.identifier(Role::Function, &words))];
@@ -118,7 +118,7 @@ impl<'l> Claims<'l> {
                 claims.claim((ScopeKind::Groups, None), language.identifier(Role::Type, &words), named);
                 functions.extend(object.entries.first().map(|sub0| {
                     let id = EntryId { index: object.index, sub: sub0.sub };
-                    (Named::Entry(id), language.identifier(Role::Function, &words.and(label(sub0))))
+                    (Named::Entry(id), language.identifier(Role::Function, &words.and(sub0.label())))
                 }));
             }
             for (named, function) in functions {
@@ -137,10 +137,10 @@ impl<'l> Claims<'l> {
     fn of_entries(device: &Dictionary, language: &'l dyn Language) -> Self {
         let mut claims = Self::new(language);
         for object in device.objects.values() {
-            let of_object = words(object);
+            let of_object = Words::of(object.label());
             let members = (ScopeKind::GroupMembers, Some(object.index));
             for entry in &object.entries {
-                let label = label(entry);
+                let label = entry.label();
                 let (named, words) = if object.is_structured() {
                     let id = EntryId { index: object.index, sub: entry.sub };
                     (Named::Entry(id), of_object.and(label))
@@ -173,14 +173,6 @@ impl<'l> Claims<'l> {
             Some(_) | None => {}
         }
     }
-}
-
-fn words(object: &Object) -> Words {
-    Words::of(object.identifier.as_ref().unwrap_or(&object.name))
-}
-
-fn label(entry: &Entry) -> &str {
-    entry.identifier.as_ref().unwrap_or(&entry.name)
 }
 
 /// What may be printed beside the accessor of an object; which of it is settled when the values have their places.

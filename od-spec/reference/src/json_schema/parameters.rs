@@ -133,12 +133,15 @@ pub(super) fn parameters(of: &str, device: &Dictionary) -> Json {
         if !object.is_structured() {
             for entry in entries {
                 named.add(object.name.clone(), of_entry(entry));
+                named.add(object.label().to_owned(), of_entry(entry));
             }
             continue;
         }
         named.add(object.name.clone(), whole(of, object, entries));
+        named.add(object.label().to_owned(), whole(of, object, entries));
         for entry in entries {
             named.add(format!("{}.{}", object.name, entry.name), of_entry(entry));
+            named.add(format!("{}.{}", object.label(), entry.label()), of_entry(entry));
         }
     }
     let Spellings { exact, patterns } = keys::spellings(device);
@@ -161,7 +164,9 @@ fn whole(of: &str, whole: &Object, settable: &[&Entry]) -> Json {
     let mut properties = Members::default();
     for entry in settable {
         let schema = || reference(&name_of(of, EntryId { index: whole.index, sub: entry.sub }));
-        for name in [entry.name.clone(), entry.sub.to_string(), format!("0x{:02X}", entry.sub.0)] {
+        let texts = [&entry.name, entry.label()].map(ToOwned::to_owned);
+        let numbers = [entry.sub.to_string(), format!("0x{:02X}", entry.sub.0)];
+        for name in texts.into_iter().chain(numbers) {
             properties.add(name, schema());
         }
     }
@@ -177,7 +182,9 @@ fn whole(of: &str, whole: &Object, settable: &[&Entry]) -> Json {
 pub(super) fn unlock(device: &Dictionary) -> Json {
     let locked: Vec<EntryId> =
         device.entries().filter(|(.., entry)| entry.locked).map(|(id, ..)| id).collect();
-    let names: Vec<String> = locked.iter().filter_map(|id| device.entry_name(*id)).collect();
+    let mut names: Vec<String> = locked.iter().filter_map(|id| device.entry_name(*id)).collect();
+    let labels: Vec<String> = locked.iter().filter_map(|id| device.entry_label(*id)).collect();
+    names.extend(labels.into_iter().filter(|label| !names.contains(label)).collect::<Vec<_>>());
     let index = object([
         ("type", texts(["string", "integer", "number"])),
         ("pattern", text("^(0[xX])?[0-9A-Fa-f]{4}")),

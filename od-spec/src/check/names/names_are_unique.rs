@@ -1,5 +1,5 @@
-//! Objects of one device, and entries of one object, have names of their own, also in ASCII, and none looks like another
-//! one's `object.entry`.
+//! Objects of one device, and entries of one object, have names or identifiers of their own, also in ASCII, and none looks
+//! like another one's `object.entry`.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -22,7 +22,8 @@ pub const CODE: &Code = &Code {
     title: "a name stands for two things",
     explanation: "Names are how people, PDO mappings and generated code refer to things: objects of one device, entries of one object, values and bits of one \
         type, units and types each need a name of their own, also where an EDS writes it in ASCII. Otherwise a mapping or a parameter file could \
-        reach another entry than its author had in mind. Give one of the two another name.",
+        reach another entry than its author had in mind. Give one of the two another name. Objects and entries may keep one name \
+        where `identifier:` tells them apart; references and code then use the identifier.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro}\n  0x2001: {name: level, type: unsigned8, access: ro}",
@@ -30,20 +31,24 @@ pub const CODE: &Code = &Code {
     )),
 };
 
-/// Objects by their names as an EDS writes them.
+/// Objects by their identifiers, or else by their names as an EDS writes them.
 type ByName<'a> = BTreeMap<Cow<'a, str>, &'a Object>;
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let mut by_name = ByName::new();
     for object in subject.device.objects.values() {
-        if let Some(before) = by_name.insert(in_ascii(&object.name), object) {
+        if let Some(before) = by_name.insert(in_ascii(object.label()), object) {
             findings.push(same_name(subject, before, object));
         }
     }
     for name in DataType::ALL.map(DataType::name) {
-        if let Some(object) = by_name.get(name).filter(|object| object.name == name) {
+        if let Some(object) = by_name.get(name).filter(|object| object.label() == name) {
             let message = format!("`{name}` is the name of a data type");
-            let help = "choose another name; this one means the data type wherever an object is named";
+            let help = subject.help(Help {
+                specification: "choose another name, or add `identifier:`; this one means the data type in references",
+                eds: "choose another name; this one means the data type wherever an object is named",
+                setting: "choose another name; this one means the data type wherever an object is named",
+            });
             findings.push(subject.object_finding(CODE, object, message).help(help));
         }
     }
@@ -61,14 +66,19 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 fn same_name(subject: &Subject<'_>, before: &Object, object: &Object) -> Diagnostic {
     let is_makers = object.span.file.is_one_with(subject.device.span.file);
     let (blamed, namesake) = if is_makers { (object, before) } else { (before, object) };
-    let name = shorten(&object.name);
+    let name = shorten(object.label());
+    let help = subject.help(Help {
+        specification: "give one of the two another name, or an `identifier:` of its own",
+        eds: "give one of the two another name; people and generated code refer to objects by name",
+        setting: "give one of the two another name; people and generated code refer to objects by name",
+    });
     let message =
         format!("{} and {} of `{}` are both named `{name}`", before.index, object.index, subject.device.key);
     Diagnostic::new(CODE, blamed.span, message)
         .about((blamed.index, Fact::Name))
         .label(blamed.index.to_string())
         .with(namesake.span, namesake.index.to_string())
-        .help("give one of the two another name; people and generated code refer to objects by name")
+        .help(help)
 }
 
 /// Entries of one object that have one name: a finding for each name, however many have it.
@@ -76,9 +86,9 @@ fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings
     let mut by_name: BTreeMap<Cow<'_, str>, &Entry> = BTreeMap::new();
     let mut shared: BTreeMap<Cow<'_, str>, Repeated> = BTreeMap::new();
     for entry in &object.entries {
-        let Some(before) = by_name.insert(in_ascii(&entry.name), entry) else { continue };
+        let Some(before) = by_name.insert(in_ascii(entry.label()), entry) else { continue };
         let place = subject.place(entry, Fact::Name);
-        let found = shared.entry(in_ascii(&entry.name)).or_insert_with(Repeated::new);
+        let found = shared.entry(in_ascii(entry.label())).or_insert_with(Repeated::new);
         // A name that is written once for many elements is wrong once.
         if found.is_empty() || place != subject.place(before, Fact::Name) {
             found.add(place, [], || same_entry_name(subject, object, before, entry));
@@ -95,31 +105,36 @@ fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings
 fn same_entry_name(subject: &Subject<'_>, object: &Object, before: &Entry, entry: &Entry) -> Diagnostic {
     let (index, first, second) = (object.index, before.sub, entry.sub);
     let (place, before_place) = (subject.place(entry, Fact::Name), subject.place(before, Fact::Name));
-    let message = if entry.name == before.name {
-        format!("{index}.{first} and {index}.{second} are both named `{}`", shorten(&entry.name))
+    let message = if entry.label() == before.label() {
+        format!("{index}.{first} and {index}.{second} are both named `{}`", shorten(entry.label()))
     } else {
         format!("{index}.{first} and {index}.{second} have one name in ASCII")
     };
     let diagnostic = subject.finding(CODE, EntryId { index, sub: second }, entry, Fact::Name, message);
     if place == before_place {
         let help = subject.help(Help {
-            specification: "write `{n}` into the name; it stands for the sub-index",
+            specification: "write `{n}` into the name or into `identifier:`; it stands for the sub-index",
             eds: "give each entry of an object a name of its own",
             setting: "give each entry of an object a name of its own",
         });
         diagnostic.label(format!("sub-index {first} and sub-index {second}")).help(help)
     } else {
+        let help = subject.help(Help {
+            specification: "give each entry of an object a name or an `identifier:` of its own",
+            eds: "give each entry of an object a name of its own",
+            setting: "give each entry of an object a name of its own",
+        });
         diagnostic
             .label(format!("sub-index {second}"))
             .with(before_place, format!("sub-index {first}"))
-            .help("give each entry of an object a name of its own")
+            .help(help)
     }
 }
 
 /// An object that is named like an entry of another one.
 fn check_dotted(subject: &Subject<'_>, object: &Object, by_name: &ByName<'_>, findings: &mut Findings) {
     for entry in &object.entries {
-        let full = format!("{}.{}", object.name, entry.name);
+        let full = format!("{}.{}", object.label(), entry.label());
         let Some(namesake) = by_name.get(&in_ascii(&full)) else { continue };
         let (index, sub) = (object.index, entry.sub);
         let message =

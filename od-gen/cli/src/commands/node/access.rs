@@ -58,6 +58,12 @@ fn entries(device: &Dictionary, text: &str) -> Result<Vec<EntryId>, Diagnostic> 
     if !ids.is_empty() {
         return Ok(ids);
     }
+    let instead = names.instead(text);
+    if !instead.is_empty() {
+        let message = format!("`{text}` is the name of several entries of `{}`", device.key);
+        let help = format!("write `{}`", instead.join("` or `"));
+        return Err(Diagnostic::without_place(rule_codes::DUPLICATE_NAME, message).help(help));
+    }
     let known = device.objects.values().map(|object| object.name.as_str());
     let help = nearest(text, known).map_or_else(
         || "write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`".to_owned(),
