@@ -62,7 +62,8 @@ fn packages() -> Vec<Value> {
 #[test]
 fn tests_ask_for_no_features_that_the_programs_have_not() {
     let features = |edges: &str| {
-        let arguments = ["tree", "--workspace", "--prefix", "none", "--format", "{p} with {f}", "--edges", edges];
+        let arguments =
+            ["tree", "--workspace", "--prefix", "none", "--format", "{p} with {f}", "--edges", edges];
         let text = cargo(&arguments);
         text.lines().map(|line| line.trim_end_matches(" (*)").to_owned()).collect::<BTreeSet<_>>()
     };
