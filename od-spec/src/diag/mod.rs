@@ -225,6 +225,11 @@ impl Diagnostic {
         self.tells_readers = true;
     }
 
+    /// Takes it as serious as it is in an EDS that was written by others and is only read.
+    pub(crate) fn soften(&mut self) {
+        self.severity = self.code.foreign;
+    }
+
     /// How serious it is.
     pub const fn severity(&self) -> Severity {
         self.severity
@@ -362,7 +367,7 @@ impl Diagnostics {
     /// Takes each message as serious as it is in an EDS that was written by others and is only read.
     pub fn soften(&mut self) {
         for diagnostic in &mut self.list {
-            diagnostic.severity = diagnostic.code.foreign;
+            diagnostic.soften();
         }
     }
 

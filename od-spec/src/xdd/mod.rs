@@ -13,6 +13,8 @@ mod editor;
 #[cfg(feature = "xdd")]
 mod languages;
 #[cfg(feature = "xdd")]
+mod left_out;
+#[cfg(feature = "xdd")]
 mod meaning;
 #[cfg(feature = "xdd")]
 mod objects;
@@ -100,6 +102,6 @@ pub(crate) fn translate(
         room: Room::new(0),
     };
     objects::write(list, disabled, context);
-    tree::say_what_is_left_out(xml, diagnostics);
+    left_out::say(xml, diagnostics);
     Some(Translated { document, texts })
 }

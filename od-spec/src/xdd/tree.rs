@@ -118,31 +118,6 @@ pub(super) fn say_that_it_is_none(tree: Tree<'_>, diagnostics: &mut Diagnostics)
     );
 }
 
-/// Says, once for each kind, what nobody reads.
-pub(super) fn say_what_is_left_out(tree: Tree<'_>, diagnostics: &mut Diagnostics) {
-    for (name, what) in [
-        ("property", "what other programs keep there"),
-        ("moduleManagement", "modules that can be plugged in"),
-        ("templateList", "templates of parameters"),
-        ("functionTypeList", "functions of the device"),
-    ] {
-        let is_kept = |node: &Node<'_, '_>| name == "property" && super::editor::is_property(tree, *node);
-        let mut found = tree
-            .xml
-            .descendants()
-            .filter(|node| node.is_element() && is_named(*node, name) && !is_kept(node));
-        let Some(first) = found.next() else { continue };
-        let message = match 1 + found.count() {
-            1 => format!("a `{name}` is left out: {what}"),
-            number => format!("{number} elements `{name}` are left out: {what}"),
-        };
-        diagnostics.push(
-            Diagnostic::new(codes::XDD_LEFT_OUT, tree.place(first), message)
-                .help("keep the file for tools that need it; what is made from it does without"),
-        );
-    }
-}
-
 /// Whether an element has a name, in whatever namespace.
 pub(super) fn is_named(node: Node<'_, '_>, name: &str) -> bool {
     node.tag_name().name() == name

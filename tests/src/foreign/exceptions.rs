@@ -71,9 +71,7 @@ fn imported(difference: &Difference, before: &Dictionary, repairs: &[Repair]) ->
         return Some(OTHER_THAN_FILLED_IN);
     }
     match difference.fact {
-        Stated::Name => {
-            repairs.iter().any(renamed).then_some("a name that an EDS cannot hold")
-        }
+        Stated::Name => repairs.iter().any(renamed).then_some("a name that an EDS cannot hold"),
         Stated::Type | Stated::Default | Stated::LowLimit | Stated::HighLimit
             if is_counted && id.sub.0 == 0 && entry.data_type != DataType::Unsigned8 =>
         {

@@ -2,8 +2,6 @@
 
 use od_spec::model::{Author, Dictionary, Entry, Fact, Index, Object, Storage, SubIndex};
 
-use super::objects::StackObject;
-
 /// Values that lie in one variable, because one command stores them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Group<'a> {
@@ -30,10 +28,9 @@ impl<'a> Group<'a> {
         }
     }
 
-    /// All groups of a device, in the order of the files.
-    pub(super) fn all(objects: &[StackObject<'a>]) -> Vec<Self> {
-        let slots = objects.iter().flat_map(StackObject::slots);
-        let mut groups: Vec<Self> = slots.filter_map(|slot| Some(slot.variable()?.0)).collect();
+    /// Each group once, in the order of the files.
+    pub(super) fn in_order(groups: impl Iterator<Item = Self>) -> Vec<Self> {
+        let mut groups: Vec<Self> = groups.collect();
         groups.sort_by_key(|group| (Self::ORDER.iter().position(|one| *one == group.storage), group.name));
         groups.dedup();
         groups

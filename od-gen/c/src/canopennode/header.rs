@@ -10,7 +10,7 @@ use super::cell::Cell;
 use super::counters::{COUNTERS, SETTINGS, of_labels};
 use super::docs::Docs;
 use super::groups::{AUTOMATIC, COMMAND, Group, GroupStorage, RESTORE};
-use super::objects::{Shape, Slot, StackObject};
+use super::objects::{Shape, Slot, StackObject, groups_of};
 
 /// What stands between the lines that keep the file from being read twice.
 pub(super) fn print(text: &mut Text, docs: Docs<'_, '_>, objects: &[StackObject<'_>]) {
@@ -21,7 +21,7 @@ pub(super) fn print(text: &mut Text, docs: Docs<'_, '_>, objects: &[StackObject<
     text.line("#endif");
     counters(text, objects);
     elements(text, objects);
-    for group in Group::all(objects) {
+    for group in groups_of(objects) {
         variables(text, docs, group, objects);
     }
     dictionary(text);
@@ -143,7 +143,7 @@ fn dictionary(text: &mut Text) {
 
 /// What the application's list of storage has for each group.
 fn storage(text: &mut Text, device: &Dictionary, objects: &[StackObject<'_>]) {
-    let stored = || Group::all(objects).into_iter().filter_map(|group| Some((group, group.stored(device)?)));
+    let stored = || groups_of(objects).into_iter().filter_map(|group| Some((group, group.stored(device)?)));
     if stored().next().is_none() {
         return;
     }

@@ -52,6 +52,12 @@ pub(super) fn of_device(device: &Dictionary) -> Vec<StackObject<'_>> {
     device.objects.values().map(StackObject::of).collect()
 }
 
+/// The groups in which values of a device lie, in the order of the files.
+pub(super) fn groups_of<'a>(objects: &[StackObject<'a>]) -> Vec<Group<'a>> {
+    let slots = objects.iter().flat_map(StackObject::slots);
+    Group::in_order(slots.filter_map(|slot| Some(slot.variable()?.0)))
+}
+
 impl<'a> StackObject<'a> {
     fn of(object: &'a Object) -> Self {
         let name = names::of_object(object);

@@ -4,7 +4,7 @@ use super::super::text::Text;
 use super::cell::Cell;
 use super::groups::Group;
 use super::initial::initialiser;
-use super::objects::{Memory, Shape, Slot, StackObject};
+use super::objects::{Memory, Shape, Slot, StackObject, groups_of};
 
 /// Everything behind the head of the file.
 pub(super) fn print(text: &mut Text, objects: &[StackObject<'_>]) {
@@ -12,7 +12,7 @@ pub(super) fn print(text: &mut Text, objects: &[StackObject<'_>]) {
     text.line("#define OD_DEFINITION");
     text.line("#include \"301/CO_ODinterface.h\"");
     text.line("#include \"OD.h\"");
-    for group in Group::all(objects) {
+    for group in groups_of(objects) {
         variables(text, group, objects);
     }
     object_types(text, objects);

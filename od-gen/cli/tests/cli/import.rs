@@ -28,8 +28,7 @@ fn from_an_eds_to_documents_and_rust_in_four_commands() {
         }
         // Names are kept as the maker gave them, also where two are equal.
         let made = format!("out/eds/{name}.eds");
-        let again =
-            odgen(&scratch.0, &["check", &made, "--strict", "--format", "short", "--allow", "OD0303"]);
+        let again = odgen(&scratch.0, &["check", &made, "--strict", "--format", "short"]);
         assert_eq!(code(&again), 0, "{}", stderr(&again));
     }
 }

@@ -10,7 +10,7 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Repeated, Severity, shorten};
-use crate::model::{DataType, Entry, EntryId, Fact, Object};
+use crate::model::{DataType, Entry, EntryId, Fact, Object, SystemSource};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
@@ -35,6 +35,17 @@ pub const CODE: &Code = &Code {
 type ByName<'a> = BTreeMap<Cow<'a, str>, &'a Object>;
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
+    for mut finding in found(subject) {
+        // CiA 306 lets names be equal; who then refers to one by name is told that several have it.
+        if subject.system.source == SystemSource::Eds {
+            finding.soften();
+        }
+        findings.push(finding);
+    }
+}
+
+fn found(subject: &Subject<'_>) -> Vec<Diagnostic> {
+    let mut findings = Vec::new();
     let mut by_name = ByName::new();
     for object in subject.device.objects.values() {
         if let Some(before) = by_name.insert(in_ascii(object.label()), object) {
@@ -55,11 +66,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     // Only a name with a dot can look like an object and its entry.
     by_name.retain(|name, _| name.contains('.'));
     for object in subject.device.objects.values().filter(|object| object.is_structured()) {
-        check_entries(subject, object, findings);
+        check_entries(subject, object, &mut findings);
         if !by_name.is_empty() {
-            check_dotted(subject, object, &by_name, findings);
+            check_dotted(subject, object, &by_name, &mut findings);
         }
     }
+    findings
 }
 
 /// Two objects of one name. What comes from a library is right: the message is about the other one.
@@ -82,7 +94,7 @@ fn same_name(subject: &Subject<'_>, before: &Object, object: &Object) -> Diagnos
 }
 
 /// Entries of one object that have one name: a finding for each name, however many have it.
-fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Findings) {
+fn check_entries(subject: &Subject<'_>, object: &Object, findings: &mut Vec<Diagnostic>) {
     let mut by_name: BTreeMap<Cow<'_, str>, &Entry> = BTreeMap::new();
     let mut shared: BTreeMap<Cow<'_, str>, Repeated> = BTreeMap::new();
     for entry in &object.entries {
@@ -132,7 +144,12 @@ fn same_entry_name(subject: &Subject<'_>, object: &Object, before: &Entry, entry
 }
 
 /// An object that is named like an entry of another one.
-fn check_dotted(subject: &Subject<'_>, object: &Object, by_name: &ByName<'_>, findings: &mut Findings) {
+fn check_dotted(
+    subject: &Subject<'_>,
+    object: &Object,
+    by_name: &ByName<'_>,
+    findings: &mut Vec<Diagnostic>,
+) {
     for entry in &object.entries {
         let full = format!("{}.{}", object.label(), entry.label());
         let Some(namesake) = by_name.get(&in_ascii(&full)) else { continue };

@@ -31,20 +31,12 @@ pub(super) fn add_to(mut object: ObjectDecl, part: &ObjectPart<'_>, context: &mu
             read.section(Some(SubIndex(sub)), part, context);
         }
     }
-    let is_structured = object.array.is_some() || object.record.is_some();
-    let var = (!is_structured).then_some((SubIndex(0), &mut object.entry));
-    let count = object.sub0.iter_mut().map(|entry| (SubIndex(0), &mut **entry));
-    let elements = object.array.iter_mut().flat_map(|array| &mut array.elements);
-    let members = object.record.iter_mut().flat_map(|record| &mut record.members);
-    let others = elements.chain(members).map(|(sub, entry)| (sub.value, entry));
-    for (sub, entry) in var.into_iter().chain(count).chain(others) {
-        if let Some(length) = read.lengths.get(&sub) {
-            capacity(entry, *length);
+    if object.array.is_some() || object.record.is_some() {
+        for (sub, entry) in object.entries_mut() {
+            read.add_to_entry(sub, entry, sub == SubIndex(0));
         }
-        if let Some(group) = &read.group {
-            let is_count = is_structured && sub == SubIndex(0);
-            stored(entry, Storage::of_group(&group.value), is_count, group.span);
-        }
+    } else {
+        read.add_to_entry(SubIndex(0), &mut object.entry, false);
     }
     let Properties { group, mut notes, .. } = read;
     notes.storage_group = group.map(|group| group.value).filter(|group| group != USUAL_GROUP);
@@ -62,6 +54,16 @@ struct Properties {
 }
 
 impl Properties {
+    /// Adds the length and what stores the value to an entry.
+    fn add_to_entry(&self, sub: SubIndex, entry: &mut EntryDecl, is_count: bool) {
+        if let Some(length) = self.lengths.get(&sub) {
+            capacity(entry, *length);
+        }
+        if let Some(group) = &self.group {
+            stored(entry, Storage::of_group(&group.value), is_count, group.span);
+        }
+    }
+
     /// Reads the section of the object, or that of an entry.
     fn section(&mut self, sub: Option<SubIndex>, part: &Part<'_>, context: &mut Context<'_>) {
         let sections = part.sections.iter().map(|section| (section.document(), section.body()));
