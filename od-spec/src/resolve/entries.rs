@@ -145,25 +145,25 @@ fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics
 /// The name in generated code; `None` also for one that is none, which is reported.
 pub(super) fn identifier(decl: &EntryDecl, diagnostics: &mut Diagnostics) -> Option<String> {
     let name = decl.identifier.as_ref()?;
-    is_identifier(name, diagnostics).then(|| name.value.clone())
+    if is_identifier(&name.value) {
+        return Some(name.value.clone());
+    }
+    diagnostics.push(no_identifier(name));
+    None
 }
 
-/// Whether a text can name something in generated code; one that cannot is reported.
-pub(super) fn is_identifier(name: &Name, diagnostics: &mut Diagnostics) -> bool {
+/// Whether a text can name something in generated code.
+pub(super) fn is_identifier(name: &str) -> bool {
     let lower = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
-    let plain = name.value.bytes().all(lower) && !name.value.contains("__") && !name.value.ends_with('_');
-    if plain && name.value.starts_with(|first: char| first.is_ascii_lowercase()) {
-        return true;
-    }
-    diagnostics.push(
-        Diagnostic::new(
-            codes::BAD_NOTATION,
-            name.span,
-            format!("`{}` is no identifier", shorten(&name.value)),
-        )
-        .help("write lower-case words joined by single `_`, beginning with a letter: `speed_limit_2`"),
-    );
-    false
+    let plain = name.bytes().all(lower) && !name.contains("__") && !name.ends_with('_');
+    plain && name.starts_with(|first: char| first.is_ascii_lowercase())
+}
+
+/// A text that cannot.
+pub(super) fn no_identifier(name: &Name) -> Diagnostic {
+    let message = format!("`{}` is no identifier", shorten(&name.value));
+    Diagnostic::new(codes::BAD_NOTATION, name.span, message)
+        .help("write lower-case words joined by single `_`, beginning with a letter: `speed_limit_2`")
 }
 
 /// The data type of an entry, and the enum or bit field that gives its values a meaning.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::entries::is_identifier;
+use super::entries::{is_identifier, no_identifier};
 use super::numbers::to_u8;
 use super::pdo_objects::{communication_object, mapping_object};
 use super::pdo_parameters::{Described, check_limits};
@@ -55,9 +55,14 @@ pub(super) fn resolve(
                     communication_object(&pdo, one, &described),
                     mapping_object(&pdo, one, &described, &map),
                 ];
-                for object in &made {
-                    check_identifiers(object, diagnostics);
-                }
+                let own = [described.communication_object(&pdo), described.mapping_object(&pdo)];
+                let of_entries = made.iter().flat_map(|object| &object.entries).filter_map(|entry| {
+                    Some(Spanned::new(entry.identifier.clone()?, entry.place(Fact::Identifier)))
+                });
+                check_identifiers(
+                    own.into_iter().filter_map(|said| said.identifier).chain(of_entries),
+                    diagnostics,
+                );
                 parameters.extend(made);
                 pdos.push(pdo);
             }
@@ -70,14 +75,11 @@ pub(super) fn resolve(
     pdos
 }
 
-/// Reports identifiers of a parameter object that are none, each pattern once.
-fn check_identifiers(object: &Object, diagnostics: &mut Diagnostics) {
-    let of_entries = object.entries.iter().map(|entry| (&entry.identifier, entry.place(Fact::Identifier)));
-    for (identifier, place) in std::iter::once((&object.identifier, object.span)).chain(of_entries) {
-        if let Some(identifier) =
-            identifier.as_ref().filter(|_| diagnostics.is_new(codes::BAD_NOTATION, place))
-        {
-            is_identifier(&Spanned::new(identifier.clone(), place), diagnostics);
+/// Reports identifiers of parameter objects and their entries that are none, each pattern once.
+fn check_identifiers(identifiers: impl Iterator<Item = Name>, diagnostics: &mut Diagnostics) {
+    for identifier in identifiers.filter(|identifier| !is_identifier(&identifier.value)) {
+        if diagnostics.is_new(codes::BAD_NOTATION, identifier.span) {
+            diagnostics.push(no_identifier(&identifier));
         }
     }
 }
