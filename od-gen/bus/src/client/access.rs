@@ -6,7 +6,7 @@ use std::time::Duration;
 use firmware_glue::frame::{CanId, Frame};
 use firmware_glue::sdo::{Channel, Failure, SdoClient, Sink, Step};
 use firmware_glue::{AbortCode, NodeId, clock};
-use od_spec::model::EntryId;
+use od_spec::model::{DataType, EntryId};
 
 use super::{Bus, BusError};
 
@@ -14,6 +14,10 @@ use super::{Bus, BusError};
 const LONGEST: usize = 16 << 20;
 /// So long at most nobody asks whether a transfer is late.
 const NAP: Duration = Duration::from_millis(20);
+/// A node that has not sent anything for so long has nothing more to say.
+const QUIET: clock::Duration = clock::Duration::from_millis(20);
+/// A lost frame is no reason to give up; more of them are.
+const RETRIES: u8 = 1;
 
 /// The master of a bus: one access at a time, to any node.
 #[derive(Debug)]
@@ -21,6 +25,10 @@ pub struct Client<B> {
     bus: B,
     /// Time without an answer after which a node is given up.
     timeout: clock::Duration,
+    /// So often a read is repeated.
+    retries: u8,
+    /// Writes that were begun.
+    writes: usize,
 }
 
 /// Why an access failed.
@@ -33,13 +41,15 @@ pub enum AccessError {
     Silent,
     /// What the node sends is no answer.
     Wrong(AbortCode),
+    /// The node's answer has so many bytes, and not eight.
+    Short(usize),
     /// Nothing goes over the bus.
     Bus(BusError),
 }
 
 impl AccessError {
-    /// Whether it is about the entry: the next access to the node is worth a try. A node that refuses a transfer because of its frames says
-    /// nothing about the entry; some of them were lost, or came twice.
+    /// Whether it is about the entry, of which the same access would say the same. A node that refuses a transfer because of its frames
+    /// says nothing about the entry; some of them were lost, or came twice.
     pub const fn is_of_entry(&self) -> bool {
         match self {
             Self::Refused(
@@ -52,9 +62,15 @@ impl AccessError {
             )
             | Self::Silent
             | Self::Wrong(_)
+            | Self::Short(_)
             | Self::Bus(_) => false,
             Self::Refused(_) => true,
         }
+    }
+
+    /// Whether nobody is there any more: another access is not worth a try.
+    pub const fn is_of_node(&self) -> bool {
+        matches!(self, Self::Silent | Self::Bus(_))
     }
 }
 
@@ -64,6 +80,7 @@ impl fmt::Display for AccessError {
             Self::Refused(code) => write!(f, "the node refuses: {code}"),
             Self::Silent => f.write_str("the node does not answer"),
             Self::Wrong(code) => write!(f, "the node's answer is none: {code}"),
+            Self::Short(bytes) => write!(f, "the node's answer has {bytes} bytes, and an answer has 8"),
             Self::Bus(error) => error.fmt(f),
         }
     }
@@ -111,6 +128,7 @@ impl Sink for Collected {
 trait Transfer {
     fn handle(&mut self, frame: &Frame, now: clock::Instant) -> Step;
     fn poll(&mut self, now: clock::Instant) -> Step;
+    fn cancel(&mut self, code: AbortCode) -> Frame;
 }
 
 impl<S: Sink> Transfer for firmware_glue::sdo::SdoRead<S> {
@@ -120,6 +138,10 @@ impl<S: Sink> Transfer for firmware_glue::sdo::SdoRead<S> {
 
     fn poll(&mut self, now: clock::Instant) -> Step {
         self.poll(now)
+    }
+
+    fn cancel(&mut self, code: AbortCode) -> Frame {
+        self.cancel(code)
     }
 }
 
@@ -131,13 +153,28 @@ impl<S: firmware_glue::sdo::Source> Transfer for firmware_glue::sdo::SdoWrite<S>
     fn poll(&mut self, now: clock::Instant) -> Step {
         self.poll(now)
     }
+
+    fn cancel(&mut self, code: AbortCode) -> Frame {
+        self.cancel(code)
+    }
 }
 
 impl<B: Bus> Client<B> {
-    /// A client on a bus, which waits so long for an answer.
+    /// A client on a bus, which waits so long for an answer, and repeats a read once.
     pub fn new(bus: B, timeout: Duration) -> Self {
         let micros = u64::try_from(timeout.as_micros()).unwrap_or(u64::MAX);
-        Self { bus, timeout: clock::Duration::from_micros(micros) }
+        Self { bus, timeout: clock::Duration::from_micros(micros), retries: RETRIES, writes: 0 }
+    }
+
+    /// The same, which repeats a read so often when a frame was lost or broken.
+    #[must_use]
+    pub fn with_retries(self, retries: u8) -> Self {
+        Self { retries, ..self }
+    }
+
+    /// So many writes were begun.
+    pub const fn writes(&self) -> usize {
+        self.writes
     }
 
     /// The bus.
@@ -157,19 +194,45 @@ impl<B: Bus> Client<B> {
         clock::Instant::from_micros(self.bus.now())
     }
 
-    /// Reads an entry of a node.
+    /// Reads an entry of a node, all bytes that come. It is repeated when a frame was lost or broken.
     ///
     /// # Errors
     /// [`AccessError`]: nothing is known of the value.
     pub fn read(&mut self, node: u8, id: EntryId) -> Result<Vec<u8>, AccessError> {
-        let (client, now) = (self.sdo(node)?, self.now());
-        let (mut reading, request) = client.start_read(of_bus(id), Collected::default(), now);
-        self.bus.send(&request)?;
-        self.finish(&mut reading)?;
-        Ok(reading.into_sink().0)
+        self.read_whole(node, id).map(|(bytes, _)| bytes)
     }
 
-    /// Writes an entry of a node.
+    /// Reads an entry of a type: an answer that does not say how many of its four bytes are the value is as long as the type.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_as(&mut self, node: u8, id: EntryId, data_type: DataType) -> Result<Vec<u8>, AccessError> {
+        let (mut bytes, last) = self.read_whole(node, id)?;
+        if let Some(bits) = data_type.bits().filter(|_| last.is_some_and(|last| is_without_size(&last))) {
+            bytes.truncate(usize::from(bits.div_ceil(8)));
+        }
+        Ok(bytes)
+    }
+
+    /// What was read, and the frame that ended it.
+    fn read_whole(&mut self, node: u8, id: EntryId) -> Result<(Vec<u8>, Option<Frame>), AccessError> {
+        let client = self.sdo(node)?;
+        let mut retries = self.retries;
+        loop {
+            let now = self.now();
+            let (mut reading, request) = client.start_read(of_bus(id), Collected::default(), now);
+            self.bus.send(&request)?;
+            match self.finish(client.channel, &mut reading) {
+                Ok(last) => return Ok((reading.into_sink().0, last)),
+                Err(error) if retries == 0 || error.is_of_entry() || matches!(error, AccessError::Bus(_)) => {
+                    return Err(error);
+                }
+                Err(_) => retries -= 1,
+            }
+        }
+    }
+
+    /// Writes an entry of a node, once.
     ///
     /// # Errors
     /// [`AccessError`]: refused by the node it has its old value; otherwise nobody knows which.
@@ -177,28 +240,67 @@ impl<B: Bus> Client<B> {
         let (client, now) = (self.sdo(node)?, self.now());
         let begun = client.start_write(of_bus(id), bytes, now);
         let (mut writing, request) = begun.map_err(AccessError::Wrong)?;
+        self.writes += 1;
         self.bus.send(&request)?;
-        self.finish(&mut writing)
+        self.finish(client.channel, &mut writing).map(|_| ())
     }
 
-    /// Brings a transfer to its end.
-    fn finish(&mut self, transfer: &mut impl Transfer) -> Result<(), AccessError> {
+    /// Brings a transfer to its end; the frame that was the last.
+    fn finish(
+        &mut self,
+        channel: Channel,
+        transfer: &mut impl Transfer,
+    ) -> Result<Option<Frame>, AccessError> {
+        let ended = self.carry(channel, transfer);
+        match &ended {
+            Ok(_) | Err(AccessError::Silent | AccessError::Bus(_)) => {}
+            Err(error) if error.is_of_entry() => {}
+            Err(_) => self.settle(channel)?,
+        }
+        ended
+    }
+
+    fn carry(
+        &mut self,
+        channel: Channel,
+        transfer: &mut impl Transfer,
+    ) -> Result<Option<Frame>, AccessError> {
         loop {
             let heard = self.bus.receive(NAP)?;
             let now = self.now();
+            let answer = heard.filter(|frame| frame.id() == channel.answer);
+            if let Some(bytes) = answer.and_then(|frame| frame.bytes().map(<[u8]>::len))
+                && bytes < 8
+            {
+                let told = transfer.cancel(AbortCode::COMMAND);
+                self.bus.send(&told)?;
+                return Err(AccessError::Short(bytes));
+            }
             let step = match heard {
                 Some(frame) => transfer.handle(&frame, now),
                 None => Step { send: None, outcome: None },
             };
             if self.follow(step)? {
-                return Ok(());
+                return Ok(heard);
             }
             // Other nodes may talk all the time.
             let step = transfer.poll(self.now());
             if self.follow(step)? {
-                return Ok(());
+                return Ok(None);
             }
         }
+    }
+
+    /// Lets pass what a node still sends of a transfer that broke: for the next one it would be a wrong answer.
+    fn settle(&mut self, channel: Channel) -> Result<(), BusError> {
+        let begin = self.now();
+        let mut last = begin;
+        while self.now() < last + QUIET && self.now() < begin + self.timeout {
+            if self.bus.receive(NAP)?.is_some_and(|frame| frame.id() == channel.answer) {
+                last = self.now();
+            }
+        }
+        Ok(())
     }
 
     /// Sends what a step has to send; whether it was the last.
@@ -237,6 +339,11 @@ impl<B: Bus> Client<B> {
         }
         Ok(false)
     }
+}
+
+/// Whether an answer holds four bytes and does not say how many of them are the value (CiA 301: e = 1, s = 0).
+fn is_without_size(answer: &Frame) -> bool {
+    answer.bytes().and_then(<[u8]>::first).is_some_and(|command| command & 0b1110_0011 == 0b0100_0010)
 }
 
 const fn of_bus(id: EntryId) -> firmware_glue::EntryId {

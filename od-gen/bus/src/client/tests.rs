@@ -4,7 +4,7 @@ use std::time::Duration;
 use firmware_glue::AbortCode;
 use firmware_glue::frame::Frame;
 use od_spec::diag::Diagnostics;
-use od_spec::model::{EntryId, Index, SubIndex, System, Value};
+use od_spec::model::{DataType, EntryId, Index, SubIndex, System, Value};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
 
@@ -194,6 +194,126 @@ fn two_devices_with_one_node_id_are_told() {
         let told: Vec<_> = found.iter().map(|one| (one.node, one.answer == Answer::Two)).collect();
         assert_eq!(told, [(5, true), (6, false)]);
     });
+}
+
+/// A bus on which a node's answers are lost, changed or doubled.
+struct Dirty<'t, F> {
+    bus: Virtual<'t>,
+    /// What becomes of the answer that is the first, the second …
+    becomes: F,
+    answers: usize,
+    /// Requests of a client, but for aborts.
+    requests: usize,
+}
+
+impl<F: FnMut(usize, Frame) -> Vec<Frame>> Bus for Dirty<'_, F> {
+    fn send(&mut self, frame: &Frame) -> Result<(), BusError> {
+        self.requests += usize::from(frame.bytes().is_some_and(|bytes| bytes[0] != 0x80));
+        self.bus.send(frame)?;
+        for answer in std::mem::take(&mut self.bus.heard) {
+            self.answers += 1;
+            self.bus.heard.extend((self.becomes)(self.answers, answer));
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
+        self.bus.receive(within)
+    }
+
+    fn now(&self) -> u64 {
+        self.bus.now()
+    }
+}
+
+/// Does something with lamps on a bus with dirt.
+fn with_dirt<F: FnMut(usize, Frame) -> Vec<Frame>>(becomes: F, test: impl FnOnce(&mut Client<Dirty<'_, F>>)) {
+    with_lamps(|_, client| {
+        let bus = std::mem::replace(&mut client.bus().bus, runtime::Bus::new(Vec::new()));
+        let bus = Virtual { bus, heard: VecDeque::new(), now: 0 };
+        let dirty = Dirty { bus, becomes, answers: 0, requests: 0 };
+        test(&mut Client::new(dirty, Duration::from_millis(500)));
+    });
+}
+
+/// A frame with another first byte.
+fn changed(frame: Frame, command: u8) -> Frame {
+    let mut bytes: [u8; 8] = frame.bytes().unwrap().try_into().unwrap();
+    bytes[0] = command;
+    Frame::full(frame.id(), bytes)
+}
+
+#[test]
+fn a_read_is_repeated_when_a_frame_was_lost_or_broken() {
+    type Becomes = fn(usize, Frame) -> Vec<Frame>;
+    let dirt: [(&str, Becomes); 5] = [
+        ("the first answer is lost", |at, frame| if at == 1 { Vec::new() } else { vec![frame] }),
+        ("a segment is lost", |at, frame| if at == 2 { Vec::new() } else { vec![frame] }),
+        ("a segment came twice", |at, frame| if at == 2 { vec![frame; 2] } else { vec![frame] }),
+        ("the first answer came twice", |at, frame| if at == 1 { vec![frame; 2] } else { vec![frame] }),
+        ("a wrong toggle bit", |at, frame| vec![if at == 2 { changed(frame, 0x10) } else { frame }]),
+    ];
+    for (what, becomes) in dirt {
+        with_dirt(becomes, |client| {
+            assert_eq!(client.read(5, id(0x2002)).expect(what), b"A lamp of glass", "{what}");
+            assert_eq!(client.read(5, id(0x2000)).expect(what), [20, 0], "{what}");
+        });
+    }
+    with_dirt(
+        |at, frame| if at <= 2 { Vec::new() } else { vec![frame] },
+        |client| {
+            let silent = client.read(5, id(0x2000)).unwrap_err();
+            assert!(silent.is_of_node() && client.bus().requests == 2, "{silent}");
+        },
+    );
+}
+
+#[test]
+fn a_broken_answer_is_no_end_of_the_node() {
+    let becomes = |_, frame: Frame| match frame.bytes() {
+        Some([_, 0x00, 0x20, ..]) => vec![changed(frame, 0xFF)],
+        Some([_, 0x01, 0x20, ..]) => vec![Frame::data(frame.id(), &[0x4B, 0x01, 0x20, 0]).unwrap()],
+        _ => vec![frame],
+    };
+    with_dirt(becomes, |client| {
+        let wrong = client.read(5, id(0x2000)).unwrap_err();
+        assert!(matches!(wrong, AccessError::Wrong(AbortCode::COMMAND)), "{wrong}");
+        assert!(!wrong.is_of_entry() && !wrong.is_of_node());
+        let short = client.read(5, id(0x2001)).unwrap_err();
+        assert!(matches!(short, AccessError::Short(4)) && !short.is_of_node(), "{short}");
+        assert_eq!(client.read(5, id(0x2003)).unwrap(), [1]);
+    });
+}
+
+#[test]
+fn an_answer_without_a_size_has_the_length_of_the_type() {
+    let becomes = |_, frame: Frame| match frame.bytes() {
+        Some([0x43 | 0x47 | 0x4B | 0x4F, ..]) => vec![changed(frame, 0x42)],
+        _ => vec![frame],
+    };
+    with_dirt(becomes, |client| {
+        assert_eq!(client.read_as(5, id(0x2000), DataType::Unsigned16).unwrap(), [20, 0]);
+        assert_eq!(client.read_as(5, id(0x2003), DataType::Unsigned8).unwrap(), [1]);
+        assert_eq!(client.read(5, id(0x2003)).unwrap(), [1, 0, 0, 0]);
+        assert_eq!(client.read_as(5, id(0x2002), DataType::VisibleString).unwrap(), b"A lamp of glass");
+    });
+    // A length that the node tells counts.
+    with_lamps(|_, client| {
+        assert_eq!(client.read_as(5, id(0x2000), DataType::Unsigned8).unwrap(), [20, 0]);
+    });
+}
+
+#[test]
+fn no_write_is_repeated() {
+    with_dirt(
+        |at, frame| if at == 1 { Vec::new() } else { vec![frame] },
+        |client| {
+            let silent = client.write(5, id(0x2000), &[30, 0]).unwrap_err();
+            assert!(matches!(silent, AccessError::Silent), "{silent}");
+            assert_eq!((client.bus().requests, client.writes()), (1, 1));
+            assert_eq!(client.read(5, id(0x2000)).unwrap(), [30, 0]);
+        },
+    );
 }
 
 #[test]

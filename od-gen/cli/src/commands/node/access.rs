@@ -9,6 +9,7 @@ use od_spec::source::{SourceMap, Spanned};
 use od_spec::{Commissioning, Layer, SettingNames, assign_layers, nearest, rule_codes};
 
 use super::args::{NodeReadArgs, NodeWriteArgs};
+use super::doubt::sent;
 use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{ERRORS, SUCCESS};
 use crate::report::{Report, print};
@@ -24,11 +25,11 @@ pub(super) fn read(args: &NodeReadArgs, report: &Report) -> Result<u8, u8> {
     let mut client = reach(&args.node, target, report)?;
     let mut code = SUCCESS;
     for id in ids {
-        match client.read(target.id, id) {
+        match target.read(&mut client, id) {
             Ok(bytes) => code = code.max(print(&format!("{}\n", line(target, id, &bytes)))),
             Err(error) => {
                 code = code.max(report.refuse(target.failed("read", id, &error)));
-                if !error.is_of_entry() {
+                if error.is_of_node() {
                     return Ok(code);
                 }
             }
@@ -175,7 +176,7 @@ fn send<B: Bus>(
                         .help("correct the value"),
                 )
             }
-            Some(bytes) => match client.write(target.id, *id, &bytes) {
+            Some(bytes) => match sent(client, target, *id, &bytes, report) {
                 Ok(()) => {
                     let code = print(&format!("{}  written\n", line(target, *id, &bytes)));
                     if code != SUCCESS {
@@ -183,7 +184,7 @@ fn send<B: Bus>(
                     }
                     None
                 }
-                Err(error) => Some(not_written(target, *id, &error)),
+                Err(unwritten) => Some(*unwritten.why),
             },
         };
         if let Some(diagnostic) = failed {
@@ -197,7 +198,7 @@ fn send<B: Bus>(
     Ok(SUCCESS)
 }
 
-/// What is said of a write that failed, and what the node has then.
+/// What is said of a write that failed.
 pub(super) fn not_written(target: Target<'_>, id: EntryId, error: &AccessError) -> Diagnostic {
     let diagnostic = target.failed("write", id, error);
     let is_locked = target.device.entry(id).is_some_and(|entry| entry.locked);
@@ -205,7 +206,6 @@ pub(super) fn not_written(target: Target<'_>, id: EntryId, error: &AccessError) 
         AccessError::Refused(_) if is_locked => {
             diagnostic.help("the entry is locked: unlock the device for service first")
         }
-        AccessError::Refused(_) => diagnostic,
-        _ => diagnostic.note("whether the node took the value is not known: read it"),
+        _ => diagnostic,
     }
 }

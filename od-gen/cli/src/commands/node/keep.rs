@@ -13,8 +13,9 @@ use od_spec::model::{EntryId, Index, Role, Value, Write};
 use od_spec::source::{SourceMap, Span};
 use od_spec::{Assigned, Commissioning, Layer, ParameterValues, assign_layers, rule_codes};
 
-use super::access::{has_default, not_written};
+use super::access::has_default;
 use super::args::{NodeBackupArgs, NodeFileArgs};
+use super::doubt::{Presence, Unwritten, sent};
 use super::reach::AnyBus;
 use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{DIFFERS, ERRORS, SUCCESS};
@@ -53,7 +54,7 @@ fn had_of<B: Bus>(
     for (at, id) in ids.iter().copied().enumerate() {
         progress.show(at);
         let Some(entry) = target.device.entry(id) else { continue };
-        match client.read(target.id, id) {
+        match target.read(client, id) {
             Ok(bytes) => match value(entry, &bytes) {
                 Some(value) => {
                     // A formula with the node-ID is what the value means, where it is the default.
@@ -65,7 +66,7 @@ fn had_of<B: Bus>(
                 }
                 None => had.untold.push((id, format!("no value of type {}", entry.data_type.name()))),
             },
-            Err(error) if error.is_of_entry() => had.untold.push((id, error.to_string())),
+            Err(error) if !error.is_of_node() => had.untold.push((id, error.to_string())),
             Err(error) => return Err((id, error)),
         }
     }
@@ -382,15 +383,15 @@ fn written<B: Bus>(
             held_back.add(write.id);
             continue;
         }
-        match client.write(target.id, write.id, &write.bytes) {
+        match sent(client, target, write.id, &write.bytes, report) {
             Ok(()) => {
                 let line = super::access::line(target, write.id, &write.bytes);
                 code = code.max(print(&format!("{}{line}  written\n", target.mark())));
             }
-            Err(error) => {
-                code = code.max(report.refuse(not_written(target, write.id, &error)));
+            Err(Unwritten { why, node }) => {
+                code = code.max(report.refuse(*why));
                 held_back.add(write.id);
-                if !error.is_of_entry() {
+                if node == Presence::Gone {
                     for write in writes.iter().skip(at + 1) {
                         report.note(&format!("not sent any more: {}", target.words().entry(write.id)));
                     }

@@ -1,6 +1,7 @@
 //! The nodes of a machine of a plant, and `odgen node backup`, `compare` and `restore` of all of them.
 
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -142,14 +143,17 @@ impl Machine {
             return Err(code);
         }
         let mut client = connect(&args.node.link, report)?;
-        let (mut well, mut differing) = (0, 0);
+        let (mut well, mut differing, mut states) = (0, 0, String::new());
         for beside in &all {
+            let writes = client.writes();
             let one = is_meant(&mut client, &args.node, beside.target, report)
                 .and_then(|()| work(&mut client, beside, report))
                 .unwrap_or_else(|code| code);
             well += usize::from(one == SUCCESS);
             differing += usize::from(one == DIFFERS);
             code = worse(code, one);
+            let state = state(one, done, client.writes() - writes);
+            let _ = writeln!(states, "  {}  {state}", beside.target.name());
         }
         let differ = match differing {
             0 => String::new(),
@@ -157,7 +161,8 @@ impl Machine {
             count => format!(", {count} differ"),
         };
         let line = format!("{}: {} of {} nodes {done}{differ}\n", self.name, well + differing, all.len());
-        Ok(worse(code, print(&line)))
+        let is_well = matches!(code, SUCCESS | DIFFERS);
+        Ok(worse(code, print(&if is_well { line } else { line + &states })))
     }
 
     /// All nodes, or those that the command line names.
@@ -203,6 +208,17 @@ impl Machine {
             path.extension().is_some_and(|ending| ending == "yaml") && !own.contains(name)
         };
         paths.filter(is_stranger).collect()
+    }
+}
+
+/// In which state a node is that something was done with.
+fn state(code: u8, done: &str, writes: usize) -> String {
+    match (code, writes) {
+        (SUCCESS, _) => done.to_owned(),
+        (DIFFERS, _) => "differs".to_owned(),
+        (_, 0) => format!("not {done}, left as it was"),
+        (_, 1) => format!("not {done}, 1 value was sent"),
+        (_, _) => format!("not {done}, {writes} values were sent"),
     }
 }
 

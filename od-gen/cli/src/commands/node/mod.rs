@@ -2,6 +2,7 @@
 
 mod access;
 mod args;
+mod doubt;
 mod keep;
 mod machine;
 mod monitor;
@@ -11,7 +12,7 @@ mod reach;
 use std::cell::OnceCell;
 use std::path::Path;
 
-use od_bus::client::AccessError;
+use od_bus::client::{AccessError, Bus, Client};
 use od_bus::trace;
 use od_spec::diag::{Code, Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, EntryId, System};
@@ -137,6 +138,14 @@ impl<'a> Target<'a> {
     /// What stands before lines that are about it, where others have such lines, too.
     fn mark(self) -> String {
         self.position.map_or_else(String::new, |_| format!("{}: ", self.name()))
+    }
+
+    /// Reads an entry of it.
+    fn read<B: Bus>(self, client: &mut Client<B>, id: EntryId) -> Result<Vec<u8>, AccessError> {
+        match self.device.entry(id) {
+            Some(entry) => client.read_as(self.id, id, entry.data_type),
+            None => client.read(self.id, id),
+        }
     }
 
     /// What is said about an access that failed.

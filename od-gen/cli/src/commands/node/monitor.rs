@@ -54,6 +54,7 @@ pub(super) fn monitor(args: &NodeMonitorArgs, directory: &Path, report: &Report)
         let timeout = Duration::from_millis(args.link.timeout.into());
         for (id, _, device) in known() {
             let client = Client::new(Overheard { bus: &mut bus, heard: Vec::new() }, timeout);
+            let client = client.with_retries(args.link.retries);
             watching.ask(Asking { client, node: id, device, report })?;
         }
     } else if nodes.is_some() {
@@ -153,10 +154,10 @@ enum Answer {
 impl Asking<'_> {
     /// Reads an entry. What goes over the bus meanwhile is told.
     fn read(&mut self, watching: &mut Watching<'_>, id: EntryId) -> Result<Answer, u8> {
-        if self.device.entry(id).is_none_or(|entry| !entry.access.is_readable()) {
+        let Some(entry) = self.device.entry(id).filter(|entry| entry.access.is_readable()) else {
             return Ok(Answer::Untold);
-        }
-        let told = self.client.read(self.node, id);
+        };
+        let told = self.client.read_as(self.node, id, entry.data_type);
         let own = SDO_ANSWERS + u16::from(self.node);
         for frame in std::mem::take(&mut self.client.bus().heard) {
             if frame.id().get() != own {
@@ -172,7 +173,7 @@ impl Asking<'_> {
                 let node = self.node;
                 self.report
                     .note(&format!("node {node} does not tell {id}, which is taken as specified: {error}"));
-                if error.is_of_entry() { Answer::Untold } else { Answer::Silent }
+                if error.is_of_node() { Answer::Silent } else { Answer::Untold }
             }
         })
     }

@@ -57,7 +57,8 @@ pub(super) fn is_meant<B: Bus>(
 
 /// Connects to a bus, with a client of its nodes.
 pub(super) fn connect(link: &LinkArgs, report: &Report) -> Result<Client<AnyBus>, u8> {
-    Ok(Client::new(bus(link, report)?, Duration::from_millis(link.timeout.into())))
+    let client = Client::new(bus(link, report)?, Duration::from_millis(link.timeout.into()));
+    Ok(client.with_retries(link.retries))
 }
 
 /// Connects to a bus; an adapter opens its channel.

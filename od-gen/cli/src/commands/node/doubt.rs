@@ -1,0 +1,69 @@
+//! A write, and what a node has where its answer to it was lost or broken.
+
+use od_bus::client::{AccessError, Bus, Client, value};
+use od_spec::diag::Diagnostic;
+use od_spec::model::EntryId;
+
+use super::Target;
+use super::access::not_written;
+use crate::report::Report;
+
+/// What is said of a value that a node did not take, or of which nobody knows.
+pub(super) struct Unwritten {
+    pub(super) why: Box<Diagnostic>,
+    pub(super) node: Presence,
+}
+
+/// Whether another access is worth a try.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Presence {
+    Here,
+    Gone,
+}
+
+impl Presence {
+    const fn after(error: &AccessError) -> Self {
+        if error.is_of_node() { Self::Gone } else { Self::Here }
+    }
+}
+
+/// Writes a value, once. After an answer that was lost or broken, the value is read back, as a second write may do something else than
+/// the first.
+pub(super) fn sent<B: Bus>(
+    client: &mut Client<B>,
+    target: Target<'_>,
+    id: EntryId,
+    bytes: &[u8],
+    report: &Report,
+) -> Result<(), Unwritten> {
+    let Err(error) = client.write(target.id, id, bytes) else { return Ok(()) };
+    let unwritten = |node, note: Option<String>| {
+        let why = not_written(target, id, &error);
+        let why = Box::new(match note {
+            Some(note) => why.note(note),
+            None => why,
+        });
+        Err(Unwritten { why, node })
+    };
+    let unknown = |why: &str| Some(format!("whether the node took the value is not known: {why}"));
+    if error.is_of_entry() {
+        return unwritten(Presence::Here, None);
+    }
+    let readable = target.device.entry(id).filter(|entry| entry.access.is_readable());
+    let Some(entry) = readable.filter(|_| !matches!(error, AccessError::Bus(_))) else {
+        return unwritten(Presence::after(&error), unknown("it cannot be read"));
+    };
+    match target.read(client, id) {
+        Ok(held) if value(entry, &held).is_some_and(|held| value(entry, bytes) == Some(held)) => {
+            let name = target.words().entry(id);
+            report.note(&format!("{}{name}: {error}; read back, it has the value", target.mark()));
+            Ok(())
+        }
+        Ok(held) => {
+            unwritten(Presence::Here, Some(format!("read back, it is {}", target.words().value(id, &held))))
+        }
+        Err(unread) => {
+            unwritten(Presence::after(&unread), unknown(&format!("it cannot be read back: {unread}")))
+        }
+    }
+}

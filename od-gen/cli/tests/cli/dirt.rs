@@ -1,0 +1,168 @@
+//! `odgen node` on a bus that loses and breaks frames.
+
+use std::fs;
+use std::process::Stdio;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use insta::assert_snapshot;
+
+use crate::node::HEATER;
+use crate::relay::{Change, Relay};
+use crate::served::Served;
+use crate::{Scratch, code, odgen, stderr, stdout};
+
+/// The first bytes of the node's answers: 2000h as 16 bits, and that it was written.
+const TOLD: &str = "t58584B002000";
+const TAKEN: &str = "t585860002000";
+
+/// A bus with a heater as node 5 behind a relay.
+struct Bus {
+    /// Runs as long as the bus.
+    _served: Served,
+    relay: Relay,
+    scratch: Scratch,
+}
+
+impl Bus {
+    fn new(name: &str, to_nodes: Change, from_nodes: Change) -> Self {
+        let scratch = Scratch::new(name);
+        scratch.file("heater.od.yaml", HEATER);
+        let served = Served::start(&scratch, &["heater.od.yaml", "--node", "5"], Stdio::null());
+        let relay = Relay::new(served.address(), to_nodes, from_nodes);
+        Self { _served: served, relay, scratch }
+    }
+
+    /// `odgen node` with node 5: what it says and how it ends, as a text.
+    fn node(&self, command: &str, arguments: &[&str]) -> String {
+        self.run(&[&[command, "heater.od.yaml", "--node", "5"], arguments].concat())
+    }
+
+    fn run(&self, arguments: &[&str]) -> String {
+        let of_bus = ["--timeout", "200", "--slcan", &self.relay.address];
+        let output = odgen(&self.scratch.0, &[&["node"], arguments, &of_bus].concat());
+        let (said, failed) = (stdout(&output), stderr(&output));
+        format!("$ odgen node {}\n{said}{failed}-> {}\n", arguments.join(" "), code(&output))
+    }
+}
+
+/// Nothing is changed.
+fn same() -> Change {
+    Box::new(|line| Some(line.to_owned()))
+}
+
+/// Of lines that begin so, each second one is lost, from the first on.
+fn loses(beginning: &'static str) -> Change {
+    let mut came = 0;
+    Box::new(move |line| {
+        came += usize::from(line.starts_with(beginning));
+        (!line.starts_with(beginning) || came % 2 == 0).then(|| line.to_owned())
+    })
+}
+
+/// Lines that begin in the one way begin in the other.
+fn begins(beginning: &'static str, other: &'static str) -> Change {
+    Box::new(move |line| {
+        Some(line.strip_prefix(beginning).map_or_else(|| line.to_owned(), |rest| format!("{other}{rest}")))
+    })
+}
+
+#[test]
+fn a_read_is_repeated_once() {
+    let bus = Bus::new("dirt-read", same(), loses(TOLD));
+    let said = [bus.node("read", &["2000", "2001"]), bus.node("read", &["2000", "2001", "--retries", "0"])];
+    assert_snapshot!("dirt-read", said.concat());
+}
+
+#[test]
+fn an_entry_with_a_malformed_answer_is_left_out_and_named() {
+    // FFh is no answer of CiA 301.
+    let bus = Bus::new("dirt-malformed", same(), begins(TOLD, "t5858FF002000"));
+    let mut said = vec![bus.node("read", &["2000", "2001"]), bus.node("backup", &["--out", "kept.yaml"])];
+    let kept = fs::read_to_string(bus.scratch.0.join("kept.yaml")).unwrap();
+    assert!(kept.contains("highest temperature: 60.0 °C") && !kept.contains("\n  wanted temperature: "));
+    bus.scratch
+        .file("both.yaml", "od-parameters: 1\nparameters: {wanted temperature: 30.0 °C, place: roof}\n");
+    said.extend([
+        bus.node("compare", &["both.yaml"]),
+        bus.node("restore", &["both.yaml"]),
+        bus.node("read", &["2004"]),
+    ]);
+    assert_snapshot!("dirt-malformed", said.concat());
+}
+
+#[test]
+fn a_short_answer_is_told_as_that() {
+    let short = Box::new(|line: &str| {
+        let cut = line.strip_prefix(TOLD).map(|_| "t58544B002000".to_owned());
+        Some(cut.unwrap_or_else(|| line.to_owned()))
+    });
+    let bus = Bus::new("dirt-short", same(), short);
+    assert_snapshot!("dirt-short", bus.node("read", &["2000", "2001"]));
+}
+
+#[test]
+fn an_answer_without_a_size_is_as_long_as_its_type() {
+    let bus = Bus::new("dirt-unsized", same(), begins(TOLD, "t585842002000"));
+    let said = [bus.node("read", &["2000"]), bus.node("backup", &["--out", "kept.yaml"])];
+    assert_snapshot!("dirt-unsized", said.concat());
+    let kept = fs::read_to_string(bus.scratch.0.join("kept.yaml")).unwrap();
+    assert!(kept.contains("wanted temperature: 40.0 °C"));
+}
+
+#[test]
+fn a_write_without_an_answer_is_read_back_and_not_repeated() {
+    let sent = Arc::new(AtomicUsize::new(0));
+    let counted = Arc::clone(&sent);
+    let counts = Box::new(move |line: &str| {
+        counted.fetch_add(usize::from(line.starts_with("t60582B002000")), Ordering::SeqCst);
+        Some(line.to_owned())
+    });
+    let bus = Bus::new("dirt-write", counts, loses(TAKEN));
+    bus.scratch
+        .file("low.yaml", "od-parameters: 1\nparameters: {wanted temperature: 20.0 °C, place: roof}\n");
+    let mut said = vec![bus.node("write", &["2000=30.0 °C", "2004=cellar"])];
+    assert_eq!(sent.load(Ordering::SeqCst), 1);
+    bus.node("write", &["2000=31.0 °C"]);
+    said.push(bus.node("restore", &["low.yaml"]));
+    assert_eq!(sent.load(Ordering::SeqCst), 3);
+    let lost = Bus::new("dirt-write-lost", loses("t60582B002000"), same());
+    lost.scratch
+        .file("low.yaml", "od-parameters: 1\nparameters: {wanted temperature: 20.0 °C, place: roof}\n");
+    said.push(lost.node("write", &["2000=30.0 °C", "2004=cellar"]));
+    lost.node("write", &["2000=30.0 °C"]);
+    said.push(lost.node("restore", &["low.yaml"]));
+    assert_snapshot!("dirt-write", said.concat());
+}
+
+#[test]
+fn each_node_of_a_machine_is_told_with_its_state() {
+    // The first node answers until it is told to take the first value.
+    let mut is_gone = false;
+    let goes = Box::new(move |line: &str| {
+        is_gone |= line.starts_with("t60582B002000");
+        (!(is_gone && line.starts_with("t605"))).then(|| line.to_owned())
+    });
+    let scratch = Scratch::new("dirt-machine");
+    scratch.file("heater.od.yaml", HEATER);
+    let plant = "\
+od-plant: 1
+title: House
+devices: {heater: heater.od.yaml}
+types:
+  flat: {bit-rate: 125, positions: {attic: {heater: 4}, bath: {heater: 5}, hall: {heater: 6}}}
+sites: {North: {type: flat, machines: {1: {}}}}
+";
+    scratch.file("house.yaml", plant);
+    let served = Served::start(&scratch, &["heater.od.yaml", "--node", "5", "--node", "6"], Stdio::null());
+    let relay = Relay::new(served.address(), goes, same());
+    let bus = Bus { _served: served, relay, scratch };
+    fs::create_dir(bus.scratch.0.join("kept")).unwrap();
+    for (name, node) in [("attic", 4), ("bath", 5), ("hall", 6)] {
+        bus.scratch.file(
+            &format!("kept/{name}-heater.yaml"),
+            format!("od-parameters: 1\ndevice: heater\nnode: {node}\nparameters: {{wanted temperature: 30.0 °C, place: roof}}\n"),
+        );
+    }
+    assert_snapshot!("dirt-machine", bus.run(&["restore", "house.yaml", "kept"]));
+}
