@@ -101,6 +101,7 @@ impl Devices<'_> {
             }
         }
         changes.extend(map);
+        changes.extend(self.editor(old, new));
         for change in &mut changes {
             if change.name.is_empty() {
                 change.name = name(old, new, &change.place);

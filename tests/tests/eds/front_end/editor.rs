@@ -1,9 +1,11 @@
 //! What CANopenEditor writes into an EDS beside the standard: comments with a key, among the keys of an object.
 
 use od_formats::eds::write_eds;
+use od_import::import;
 use od_spec::eds::{Document, Owner};
 use od_spec::model::{Index, Storage, SubIndex};
 use od_spec::source::SourceMap;
+use od_spec::{NoFiles, compile};
 
 use super::{compiled, device};
 
@@ -66,6 +68,23 @@ fn an_eds_is_written_with_what_another_one_kept() {
     ] {
         assert_eq!(written.matches(&format!("\r\n{line}\r\n")).count(), 1, "{line}: {written}");
     }
+    assert_eq!(kept(&written), KEPT);
+}
+
+#[test]
+fn an_import_says_what_the_editor_keeps() {
+    let mut sources = SourceMap::new();
+    let root = sources.add("lamp.eds", LAMP);
+    let read = compile(&mut sources, root, &mut NoFiles);
+    let text = import(&read, &sources, root).unwrap().unwrap().text;
+    let said = "    canopennode:\n      0x1017: {group: PERSIST_COMM, count: HB_PROD}\n      \
+                0x2000: {group: PERSIST_MFR, srdo: {1: receive}, requests-tpdos: yes}\n      \
+                0x2001: {group: PERSIST_APP}\n";
+    assert!(text.contains(said), "{text}");
+    assert!(!text.contains("# StorageLocation") && !text.contains("# CO_"), "{text}");
+    let root = sources.add("lamp.od.yaml", text);
+    let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
+    let written = String::from_utf8(write_eds(&system, &system.devices[0])).unwrap();
     assert_eq!(kept(&written), KEPT);
 }
 
