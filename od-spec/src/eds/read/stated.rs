@@ -101,6 +101,10 @@ fn comments(lines: &[Name], diagnostics: &mut Diagnostics) -> Vec<String> {
 
 /// Reports what an EDS cannot hold, and what it loses.
 fn check(key: &str, value: &Name, place: Span, diagnostics: &mut Diagnostics) -> bool {
+    // An empty text was refused where it was read.
+    if key.is_empty() || value.value.trim().is_empty() {
+        return false;
+    }
     if let Some(problem) = cannot_hold(key, &value.value) {
         diagnostics.push(
             Diagnostic::new(NAME_NOT_FOR_EDS, place, format!("`{}`: {problem}", shorten(key)))
@@ -124,7 +128,7 @@ fn document(file: FileId, sections: &[FileSectionDecl], diagnostics: &mut Diagno
     let mut names = BTreeMap::new();
     for FileSectionDecl { name, keys } in sections {
         let standard = canonical(topic(&name.value)).unwrap_or_else(|| name.value.clone());
-        if is_twice(&mut names, &standard, name.span, diagnostics) {
+        if name.value.is_empty() || is_twice(&mut names, &standard, name.span, diagnostics) {
             continue;
         }
         if let Some(problem) = cannot_hold_section(&name.value) {

@@ -238,8 +238,11 @@ fn an_import_lists_keys_that_no_line_can_hold() {
          [Größe]\nBreite=3 µm\n[速度]\nA=1\n"
     );
     let text = imported("a.eds", &text);
-    assert!(text.contains("2000: {Scale: 2}") && text.contains("Größe: {Breite: 3 µm}"), "{text}");
-    assert!(text.contains(&format!("# - [2000] Unit={long}\n# - [2000] Tab=a")), "{text}");
+    assert!(
+        text.contains("sections: {2000: {Scale: 2}, ") && text.contains("Größe: {Breite: 3 µm}"),
+        "{text}"
+    );
+    assert!(text.contains(&format!("# - [2000]\n# Unit={long}\n# - [2000] Tab=a")), "{text}");
     assert!(text.contains("# - [速度] A=1\n"), "{text}");
     assert!(eds_of("a.od.yaml", &text).contains("\r\nScale=2\r\n"));
 }
@@ -258,7 +261,7 @@ fn what_a_specification_says_beside_the_facts_is_in_its_eds() {
     );
     let section = |name: &str| {
         let start = written.find(&format!("[{name}]\r\n")).unwrap_or_else(|| panic!("[{name}] in {written}"));
-        written[start..].split("\r\n\r\n").next().unwrap().to_owned()
+        written[start..].split("\r\n\r\n").next().unwrap().trim_end().to_owned()
     };
     assert!(section("DeviceInfo").ends_with("\r\nNG_Slave=1\r\nOurs=2"), "{written}");
     assert_eq!(section("Comments"), "[Comments]\r\nLines=2\r\nLine1=one; two\r\nLine2=three");
