@@ -15,6 +15,8 @@ use crate::report::shown;
 
 /// So many modules are named in a message.
 const NAMED: usize = 12;
+/// So many can be plugged in: 1027h has sub-indices up to FEh, one for each of them.
+const MOST: usize = 254;
 
 /// The device of a file with modules plugged in, which are named by number, order code or product name. Of a specification,
 /// its EDS is the file, as that is what modules are made for.
@@ -39,6 +41,10 @@ pub(crate) fn plugged_in(
     }
     let numbers = names.iter().map(|name| number(name.trim(), &further.modules));
     let numbers: Vec<u32> = numbers.collect::<Result<_, _>>()?;
+    if numbers.len() > MOST {
+        let message = format!("{} modules are named, and 1027h has entries for {MOST}", numbers.len());
+        return Err(refusal(message, "name no more than that"));
+    }
     *sources = SourceMap::new();
     let whole = match coupler.filter(|(system, _)| system.source == SystemSource::Specification) {
         Some((system, device)) => {

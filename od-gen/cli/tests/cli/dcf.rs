@@ -482,12 +482,14 @@ fn modules_are_plugged_in_by_number_order_code_or_name() {
             refused("16 inputs", "coupler.eds"),
             refused("1", "plain.eds"),
             refused("1", "coupler-5.dcf"),
+            refused(&["1"; 255].join(","), "coupler.eds"),
         ],
         [
             "error[EDS606]: there is no module `4` (the modules are 1 (8 inputs, DI8), 2 (16 inputs, DI16), 3 (16 inputs, DI16/2))",
             "error[EDS606]: `16 inputs` is the name of several modules: 2, 3 (name one of them by its number)",
             "error[EDS606]: plain.eds describes no modules (take the EDS of a bus coupler, which describes them under `[SupportedModules]`)",
             "error[EDS606]: coupler-5.dcf has the objects of modules already (take the EDS of the bus coupler alone)",
+            "error[EDS606]: 255 modules are named, and 1027h has entries for 254 (name no more than that)",
         ]
     );
 }
