@@ -8,7 +8,7 @@ use od_spec::diag::codes::{XDD_DISABLED, XDD_LEFT_OUT};
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
 use od_spec::eds::codes::{LINKS_OF_NOTHING, NO_INDEX, NO_PLACE, OBJECT_LEFT_OUT};
 use od_spec::eds::{Document, Owner, cannot_hold, cannot_hold_section};
-use od_spec::model::{Dictionary, EditorProperty, Further, KeyValue, ObjectKind, System};
+use od_spec::model::{Dictionary, EditorProperty, Further, KeyValue, Object, ObjectKind, System};
 use od_spec::source::{FileId, SourceMap, Spanned};
 use od_spec::visible::straight;
 use od_spec::wording::{Notation, Wording};
@@ -61,6 +61,7 @@ pub fn import(
         .filter(|(place, text)| place.is_none() || !is_property(text));
     let remarks: Vec<_> = remarks.collect();
     let mut without_place = device.further.as_deref().map(not_held).unwrap_or_default();
+    without_place.extend(groups_left_out(device));
     let usual = usual(&remarks, device);
     for (place, text) in remarks {
         match place {
@@ -100,8 +101,8 @@ pub fn import(
 
 /// Keys that no line of an EDS can hold as they are.
 fn not_held(further: &Further) -> Vec<String> {
-    let of_keys = further.keys.iter().map(|(section, keys)| (section, keys));
-    let sections = of_keys.chain(further.all_sections().map(|section| (&section.name, &section.keys)));
+    let sections =
+        further.keys.iter().chain(further.all_sections().map(|section| (&section.name, &section.keys)));
     let comments = further.comments.iter().flatten().enumerate();
     let comments = comments.filter(|(_, line)| cannot_hold("Line99999", line).is_some());
     let mut lines: Vec<String> =
@@ -112,6 +113,16 @@ fn not_held(further: &Further) -> Vec<String> {
         lines.extend(lost.map(|KeyValue { key, value, .. }| format!("[{section}] {key}={value}")));
     }
     lines
+}
+
+/// The groups that no specification can name, as entries of the object are stored by something else.
+fn groups_left_out(device: &Dictionary) -> Vec<String> {
+    let objects = device.objects.values().filter(|object| object.stored_beside_group().is_some());
+    let group = |object: &Object| {
+        let group = object.editor.as_ref()?.storage_group.as_deref()?;
+        Some(format!("the group {group} of {}, whose entries are stored otherwise", object.index))
+    };
+    objects.filter_map(group).collect()
 }
 
 /// Whether a comment is a property of CANopenEditor.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::refs::Broken;
 use crate::ast::{DeviceDecl, Name, NotesDecl};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
-use crate::model::{EditorNotes, Entry, EntryId, Index, Object, PdoMapping, Storage, SubIndex};
+use crate::model::{EditorNotes, EntryId, Index, Object, PdoMapping, Storage, SubIndex};
 
 /// Adds it to the objects.
 pub(super) fn add(
@@ -31,31 +31,29 @@ pub(super) fn add(
                 let id = EntryId { index, sub: SubIndex(*sub) };
                 diagnostics.push(broken.missing(id, true, mapping.span));
             }
-            if let Some(conflict) = conflict(decl, &notes, object)
+            object.editor = (!notes.is_empty()).then(|| Box::new(notes.clone()));
+            // A run of objects says it once.
+            if let Some(conflict) = conflict(decl, object)
                 && diagnostics.is_new(codes::CONFLICTING_KEYS, decl.range.span)
             {
                 diagnostics.push(conflict);
             }
-            object.editor = (!notes.is_empty()).then(|| Box::new(notes.clone()));
         }
     }
 }
 
 /// An entry that is stored by something else than its group: code for the stack would store it otherwise than all else says.
-fn conflict(decl: &NotesDecl, notes: &EditorNotes, object: &Object) -> Option<Diagnostic> {
-    let (group, place) = (notes.storage_group.as_ref()?, decl.group.as_ref()?.span);
-    let storage = Storage::of_group(group);
-    let differs = |entry: &&Entry| entry.stored != Storage::No && entry.stored != storage;
-    let entry = object.entries.iter().find(differs)?;
+fn conflict(decl: &NotesDecl, object: &Object) -> Option<Diagnostic> {
+    let (entry, group) = (object.stored_beside_group()?, decl.group.as_ref()?);
     let id = EntryId { index: object.index, sub: entry.sub };
     let message = format!(
         "group `{}` is `stored: {}`, and {id} is `stored: {}`",
-        shorten(group),
-        storage.word(),
+        shorten(&group.value),
+        Storage::of_group(&group.value).word(),
         entry.stored.word()
     );
     Some(
-        Diagnostic::new(codes::CONFLICTING_KEYS, place, message)
+        Diagnostic::new(codes::CONFLICTING_KEYS, group.span, message)
             .help("correct `stored:` of the entry, or name another group"),
     )
 }

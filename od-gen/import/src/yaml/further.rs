@@ -1,7 +1,7 @@
 //! What a device's EDS has beside the facts of the model, and what CANopenNode keeps of its objects.
 
 use od_spec::eds::{Owner, cannot_hold, cannot_hold_section, owner};
-use od_spec::model::{Dictionary, EditorNotes, Index, KeyValue};
+use od_spec::model::{Dictionary, EditorNotes, Index, KeyValue, Object};
 
 use super::context::Context;
 use super::node::{Item, Node};
@@ -16,7 +16,6 @@ pub(super) fn of_eds(device: &Dictionary) -> Vec<Item> {
         Item::new("comments", Node::List(lines.map(|line| Node::text(line.clone())).collect()))
     });
     let of_what_is_there = further.keys.iter().filter(|(section, _)| is_there(device, section));
-    let of_what_is_there = of_what_is_there.map(|(section, keys)| (section, keys));
     let others = further.all_sections().map(|section| (&section.name, &section.keys));
     let sections = of_what_is_there.chain(others);
     let sections = sections.filter(|(section, _)| cannot_hold_section(section).is_none());
@@ -43,8 +42,7 @@ fn is_there(device: &Dictionary, section: &str) -> bool {
             !is_of_links || !object.links.is_empty()
         }),
         Owner::Entry(id) => {
-            device.objects.get(&id.index).is_some_and(|object| object.is_structured())
-                && device.entry(id).is_some()
+            device.objects.get(&id.index).is_some_and(Object::is_structured) && device.entry(id).is_some()
         }
     }
 }
@@ -75,13 +73,16 @@ pub(super) fn canopennode(context: &Context<'_>) -> Option<Node> {
         let notes = object.editor.as_deref()?;
         let mut notes = notes.clone();
         notes.srdos.retain(|sub, _| object.entry(*sub).is_some());
+        if object.stored_beside_group().is_some() {
+            notes.storage_group = None;
+        }
         (!notes.is_empty()).then_some((object.index, notes))
     });
     let mut runs: Vec<(Index, Index, EditorNotes)> = Vec::new();
     for (index, notes) in noted {
         match runs.last_mut() {
             Some((_, last, same)) if last.0.checked_add(1) == Some(index.0) && *same == notes => {
-                *last = index
+                *last = index;
             }
             _ => runs.push((index, index, notes)),
         }

@@ -97,3 +97,19 @@ fn a_comment_after_the_keys_is_about_its_own_object() {
     let label = remarks.iter().find(|remark| remark.text == "CO_countLabel=HB_PROD").unwrap();
     assert_eq!(label.owner, Owner::Object(Index(0x1017)));
 }
+
+/// Comments of ours say what stores an entry, and somebody named another group since.
+#[test]
+fn a_group_against_what_stores_its_entries_is_told() {
+    let text = "[2000]\nParameterName=level\nObjectType=0x7\n;StorageLocation=PERSIST_MFR\nDataType=0x0005\nAccessType=rw\n\
+        DefaultValue=1\nPDOMapping=0\n";
+    let mut sources = SourceMap::new();
+    let root = sources.add("lamp.eds", format!("; stored with the application parameters\n{text}"));
+    let read = compile(&mut sources, root, &mut NoFiles);
+    let entry = &read.system.as_ref().unwrap().devices[0].objects[&Index(0x2000)].entries[0];
+    assert_eq!(entry.stored, Storage::Application);
+    let text = import(&read, &sources, root).unwrap().unwrap().text;
+    assert!(text.contains("stored: application") && !text.contains("canopennode:"), "{text}");
+    let told = "# - the group PERSIST_MFR of 2000h, whose entries are stored otherwise\n";
+    assert!(text.contains(told), "{text}");
+}
