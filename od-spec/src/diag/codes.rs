@@ -122,6 +122,8 @@ codes! {
         "A block of `flow:` takes what it needs from earlier blocks, so that the picture has a direction, names each of them once, and gives something to another or takes something from one. A span of `axis:` begins and ends at different marks; it may lack one of the two ends. Blocks of one picture have different names, and so have marks, because they are named by them."
     NO_COMMON_DEVICE Error "OD0329" "a picture across devices":
         "The entries that a picture names are those of one device: a reader finds them in its tables. Name entries that one device has, or draw two pictures."
+    FOLLOWS Error "OD0330" "a key of the EDS that follows from the specification":
+        "`sections:` of a device's `eds:` are for what its EDS has beside what follows: keys such as `SRDOMapping`, keys and sections of a maker, modules. This key or section is made from the specification, which the EDS could then contradict. Remove it here, and say it where the help tells."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."
     BAD_FORMULA Error "OD0402" "a node-ID formula that is none":
