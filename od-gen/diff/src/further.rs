@@ -9,6 +9,7 @@ use od_spec::model::{Fact, Further, FurtherSection, KeyValue, Module};
 use super::change::{Change, Class, Consequence, Place};
 use super::objects::{Devices, name};
 use super::rules::{self, Consequences};
+use super::sides::{Values, sides};
 
 impl Devices<'_> {
     /// What differs in it, where both sides can have it.
@@ -16,8 +17,10 @@ impl Devices<'_> {
         let (Some(old), Some(new)) = (self.old.further.as_deref(), self.new.further.as_deref()) else {
             return Vec::new();
         };
-        let comments = |further: &Further| transliterate(&further.comments.join(" / "));
-        let comments = Change::text(Place::Device, Fact::Eds, &comments(old), &comments(new));
+        let lines = |lines: &[String]| transliterate(&lines.join(" / "));
+        let comments = old.comments.as_ref().zip(new.comments.as_ref());
+        let comments =
+            comments.and_then(|(old, new)| Change::text(Place::Device, Fact::Eds, &lines(old), &lines(new)));
         let comments =
             comments.map(|change| change.part("comments").so(Class::Documents, "the file about itself"));
         let mut changes: Vec<Change> = comments.into_iter().collect();
@@ -63,19 +66,10 @@ impl Devices<'_> {
 
 const BY_TOOLS: Consequence = Consequence::new(Class::Behaviour, "tools that know the key act otherwise");
 
-/// A value before and after.
-type Values = (Option<String>, Option<String>);
-
 /// The values of keys on both sides; an EDS of ours has them in ASCII.
 fn values<'k>(old: &'k [KeyValue], new: &'k [KeyValue]) -> BTreeMap<&'k str, Values> {
-    let mut values: BTreeMap<&str, Values> = BTreeMap::new();
-    for KeyValue { key, value, .. } in old {
-        values.entry(key).or_default().0 = Some(transliterate(value));
-    }
-    for KeyValue { key, value, .. } in new {
-        values.entry(key).or_default().1 = Some(transliterate(value));
-    }
-    values
+    let in_ascii = |one: &'k KeyValue| (one.key.as_str(), transliterate(&one.value));
+    sides(old.iter().map(in_ascii), new.iter().map(in_ascii))
 }
 
 /// What differs in the keys of whole sections.

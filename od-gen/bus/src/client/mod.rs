@@ -20,7 +20,7 @@ use firmware_glue::frame::Frame;
 pub use self::access::{AccessError, Client};
 pub use self::link::{OpenError, SlcanBus};
 pub use self::port::{Manner, Port};
-pub use self::restore::{involved, kept, plan, value};
+pub use self::restore::{involved, judged, kept, plan, value};
 pub use self::scan::{Answer, Contradiction, Heard, Identity, recognize, scan};
 pub use self::serial::Serial;
 

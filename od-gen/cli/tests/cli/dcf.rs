@@ -495,6 +495,31 @@ fn modules_are_plugged_in_by_number_order_code_or_name() {
 }
 
 #[test]
+fn modules_are_plugged_into_the_specification_of_a_coupler() {
+    let scratch = Scratch::new("modules-of-specification");
+    scratch.file("coupler.eds", COUPLER);
+    let run = |arguments: &[&str]| {
+        let output = odgen(&scratch.0, arguments);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+    };
+    run(&["import", "coupler.eds", "--out", "imported"]);
+    let dcf = |file: &str, out: &str| {
+        run(&["dcf", file, "--node", "5", "--modules", "1,2,1", "--out", out]);
+        fs::read_to_string(scratch.0.join(out)).unwrap().replace("\r\n", "\n")
+    };
+    let of_file = dcf("coupler.eds", "file.dcf");
+    let of_import = dcf("imported/coupler.od.yaml", "import.dcf");
+    let objects = |dcf: &str| dcf.split("[MandatoryObjects]").nth(1).unwrap().to_owned();
+    assert!(of_import.ends_with("[ConnectedModules]\nNrOfEntries=3\n1=1\n2=2\n3=1\n"), "{of_import}");
+    assert_eq!(objects(&of_import), objects(&of_file));
+    // What is plugged in is part of what an import says.
+    run(&["import", "file.dcf", "--out", "imported"]);
+    run(&["dcf", "imported/file.od.yaml", "--node", "5", "--out", "again.dcf"]);
+    let again = fs::read_to_string(scratch.0.join("again.dcf")).unwrap().replace("\r\n", "\n");
+    assert_eq!(objects(&again), objects(&of_file));
+}
+
+#[test]
 fn an_xdd_does_without_what_a_file_says_in_its_own_words_and_it_is_told() {
     let scratch = Scratch::new("not-in-xdd");
     scratch.file("coupler.eds", COUPLER);

@@ -85,7 +85,7 @@ fn an_entry_with_a_malformed_answer_is_left_out_and_named() {
         .file("both.yaml", "od-parameters: 1\nparameters: {wanted temperature: 30.0 °C, place: roof}\n");
     said.extend([
         bus.node("compare", &["both.yaml"]),
-        bus.node("restore", &["both.yaml"]),
+        bus.node("restore", &["--yes", "both.yaml"]),
         bus.node("read", &["2004"]),
     ]);
     assert_snapshot!("dirt-malformed", said.concat());
@@ -121,17 +121,17 @@ fn a_write_without_an_answer_is_read_back_and_not_repeated() {
     let bus = Bus::new("dirt-write", counts, loses(TAKEN));
     bus.scratch
         .file("low.yaml", "od-parameters: 1\nparameters: {wanted temperature: 20.0 °C, place: roof}\n");
-    let mut said = vec![bus.node("write", &["2000=30.0 °C", "2004=cellar"])];
+    let mut said = vec![bus.node("write", &["--yes", "2000=30.0 °C", "2004=cellar"])];
     assert_eq!(sent.load(Ordering::SeqCst), 1);
-    bus.node("write", &["2000=31.0 °C"]);
-    said.push(bus.node("restore", &["low.yaml"]));
+    bus.node("write", &["--yes", "2000=31.0 °C"]);
+    said.push(bus.node("restore", &["--yes", "low.yaml"]));
     assert_eq!(sent.load(Ordering::SeqCst), 3);
     let lost = Bus::new("dirt-write-lost", loses("t60582B002000"), same());
     lost.scratch
         .file("low.yaml", "od-parameters: 1\nparameters: {wanted temperature: 20.0 °C, place: roof}\n");
-    said.push(lost.node("write", &["2000=30.0 °C", "2004=cellar"]));
-    lost.node("write", &["2000=30.0 °C"]);
-    said.push(lost.node("restore", &["low.yaml"]));
+    said.push(lost.node("write", &["--yes", "2000=30.0 °C", "2004=cellar"]));
+    lost.node("write", &["--yes", "2000=30.0 °C"]);
+    said.push(lost.node("restore", &["--yes", "low.yaml"]));
     assert_snapshot!("dirt-write", said.concat());
 }
 
@@ -164,5 +164,5 @@ sites: {North: {type: flat, machines: {1: {}}}}
             format!("od-parameters: 1\ndevice: heater\nnode: {node}\nparameters: {{wanted temperature: 30.0 °C, place: roof}}\n"),
         );
     }
-    assert_snapshot!("dirt-machine", bus.run(&["restore", "house.yaml", "kept"]));
+    assert_snapshot!("dirt-machine", bus.run(&["restore", "house.yaml", "kept", "--yes"]));
 }

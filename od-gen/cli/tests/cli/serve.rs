@@ -392,8 +392,8 @@ mod terminal {
             stdout(&output)
         };
         assert_eq!(
-            node(&["write", "lamp.od.yaml", "--node", "5", "brightness=60 %"]),
-            "2000h brightness = 60 %  [3C]  written\n"
+            node(&["write", "lamp.od.yaml", "--node", "5", "brightness=60 %", "--yes"]),
+            "2000h brightness: 80 % → 60 %\nlost with a reset: 2000h brightness\n2000h brightness = 60 %  [3C]  written\n"
         );
         assert_eq!(node(&["read", "lamp.od.yaml", "--node", "5", "2000"]), "2000h brightness = 60 %  [3C]\n");
         assert_eq!(

@@ -49,8 +49,10 @@ pub(super) fn sent<B: Bus>(
     if error.is_of_entry() {
         return unwritten(Presence::Here, None);
     }
-    let readable = target.device.entry(id).filter(|entry| entry.access.is_readable());
-    let Some(entry) = readable.filter(|_| !matches!(error, AccessError::Bus(_))) else {
+    if matches!(error, AccessError::Bus(_)) {
+        return unwritten(Presence::Gone, unknown("read it"));
+    }
+    let Some(entry) = target.device.entry(id).filter(|entry| entry.access.is_readable()) else {
         return unwritten(Presence::after(&error), unknown("it cannot be read"));
     };
     match target.read(client, id) {

@@ -14,9 +14,8 @@ use od_spec::source::SourceMap;
 
 use super::args::{NodeBackupArgs, NodeFileArgs, OneNodeArgs};
 use super::keep::{WithFile, beside, kept_line, parameters_of};
-use super::reach::AnyBus;
 use super::{Target, connect, is_meant};
-use crate::exit::{DIFFERS, SUCCESS};
+use crate::exit::{DIFFERS, SUCCESS, USAGE};
 use crate::output::{forced, keep};
 use crate::plant_file;
 use crate::report::{Report, node_id, print, shown};
@@ -123,8 +122,7 @@ impl Machine {
     pub(super) fn with_files(
         &self,
         args: &NodeFileArgs,
-        done: &str,
-        work: WithFile<AnyBus>,
+        work: WithFile<'_>,
         report: &Report,
     ) -> Result<u8, u8> {
         let (mut all, mut code) = (Vec::new(), SUCCESS);
@@ -147,12 +145,16 @@ impl Machine {
         for beside in &all {
             let writes = client.writes();
             let one = is_meant(&mut client, &args.node, beside.target, report)
-                .and_then(|()| work(&mut client, beside, report))
+                .and_then(|()| work.with(&mut client, beside, report))
                 .unwrap_or_else(|code| code);
+            // There is nobody to ask, for any of them.
+            if one == USAGE {
+                return Err(USAGE);
+            }
             well += usize::from(one == SUCCESS);
             differing += usize::from(one == DIFFERS);
             code = worse(code, one);
-            let state = state(one, done, client.writes() - writes);
+            let state = state(one, work.done(), client.writes() - writes);
             let _ = writeln!(states, "  {}  {state}", beside.target.name());
         }
         let differ = match differing {
@@ -160,7 +162,8 @@ impl Machine {
             1 => ", 1 differs".to_owned(),
             count => format!(", {count} differ"),
         };
-        let line = format!("{}: {} of {} nodes {done}{differ}\n", self.name, well + differing, all.len());
+        let (name, done) = (&self.name, work.done());
+        let line = format!("{name}: {} of {} nodes {done}{differ}\n", well + differing, all.len());
         let is_well = matches!(code, SUCCESS | DIFFERS);
         Ok(worse(code, print(&if is_well { line } else { line + &states })))
     }

@@ -2,6 +2,7 @@
 
 mod access;
 mod args;
+mod confirm;
 mod doubt;
 mod keep;
 mod machine;

@@ -155,6 +155,11 @@ fn sign(
     let node = node_id(&args.node).map_err(|diagnostic| report.refuse(diagnostic))?;
     let id = EntryId { index: Index(index), sub: SubIndex(args.group) };
     let mut client = connect(&args.link, report)?;
+    args.confirm.ask(
+        &format!("node {node} is told to {what} ({id})\n"),
+        &format!("let node {node} {what}"),
+        report,
+    )?;
     match client.write(node, id, &signature) {
         Ok(()) => Ok(print(&format!("{done}\n"))),
         Err(error) => {
