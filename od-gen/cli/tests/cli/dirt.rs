@@ -135,6 +135,13 @@ fn a_write_without_an_answer_is_read_back_and_not_repeated() {
     assert_snapshot!("dirt-write", said.concat());
 }
 
+/// That a node stores shows in no value.
+#[test]
+fn a_command_without_an_answer_may_have_come() {
+    let bus = Bus::new("dirt-store", same(), loses("t585860101001"));
+    assert_snapshot!("dirt-store", bus.run(&["store", "--node", "5", "--yes"]));
+}
+
 #[test]
 fn each_node_of_a_machine_is_told_with_its_state() {
     // The first node answers until it is told to take the first value.

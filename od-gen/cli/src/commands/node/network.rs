@@ -17,6 +17,9 @@ use crate::specs;
 /// A node starts within this time.
 const START: Duration = Duration::from_secs(5);
 
+/// What is said of a command whose answer was lost or broken.
+const PERHAPS: &str = "the command may have come all the same";
+
 /// What is said where nothing goes over the bus.
 pub(super) fn broken(error: &BusError) -> Diagnostic {
     Diagnostic::without_place(codes::ACCESS_FAILED, error.to_string())
@@ -167,8 +170,10 @@ fn sign(
             let diagnostic = Diagnostic::without_place(codes::ACCESS_FAILED, message);
             Err(report.refuse(match error {
                 AccessError::Silent => diagnostic
+                    .note(PERHAPS)
                     .help("check node-ID, bit rate and power; storing may take long: `--timeout MS`"),
-                _ => diagnostic,
+                error if error.is_of_entry() => diagnostic,
+                _ => diagnostic.note(PERHAPS),
             }))
         }
     }
