@@ -25,7 +25,7 @@ import can
 import canopen
 import cantools
 from canopen.objectdictionary import ODVariable
-from canopen.sdo import SdoAbortedError, SdoClient
+from canopen.sdo import SdoAbortedError, SdoClient, SdoCommunicationError
 
 from compare import Reading, Tool, compare
 from expected import Facts, expected_facts
@@ -136,6 +136,8 @@ def check_serve(row: Row, odgen: Path, path: Path, node: int, dictionary: canope
                     served: Any = entry.decode_raw(client.upload(entry.index, entry.subindex))
                 except SdoAbortedError as abort:
                     served = f"abort {abort.code:08X}h"
+                except SdoCommunicationError as error:
+                    raise RuntimeError(f"{entry.index:04X}h.{entry.subindex}: {error}") from error
                 row.that(f"{path.name}: {entry.index:04X}h.{entry.subindex}", served, wanted)
         finally:
             network.disconnect()
