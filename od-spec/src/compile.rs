@@ -267,7 +267,10 @@ fn build(
     let spec = file(sources, root, &[], loader, diagnostics)?;
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
-    let Resolved { system, library } = resolve::resolve(&spec, &libraries, diagnostics);
+    let Resolved { mut system, library } = resolve::resolve(&spec, &libraries, diagnostics);
+    for (device, decl) in system.devices.iter_mut().zip(&spec.devices) {
+        device.further = Some(Arc::new(eds::read::stated(decl.eds.as_ref(), device, diagnostics)));
+    }
     let mut allowed = Allowed::of(&spec, diagnostics);
     check::system(rules, &system, library.as_ref(), &mut allowed, diagnostics);
     let described = described(&spec, &system);

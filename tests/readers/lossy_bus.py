@@ -213,7 +213,7 @@ class Trial:
         return finished
 
     def restore(self, name: str) -> bool | None:
-        finished = self.judge("restore", self.command("restore", "new.yaml"))
+        finished = self.judge("restore", self.command("restore", "new.yaml", "--yes"))
         has = self.has()
         if finished and has != NEW:
             self.failures.append(f"{name}: a restore that is said to have finished: {different(has, NEW)}")

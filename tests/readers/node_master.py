@@ -156,7 +156,7 @@ def main() -> int:
         check.that("compare with changes", told.returncode, 3)
         check.that("nothing else differs", differing - changed, set())
         check.that("something differs", len(differing) > 2, True)
-        restored = of_node("restore", file)
+        restored = of_node("restore", file, "--yes")
         check.that(f"restore {restored.stderr}", restored.returncode, 0)
         check.that("what was written", set(ids(LINE_WRITTEN, restored.stdout)), differing)
         for at in sorted(differing):

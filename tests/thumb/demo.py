@@ -219,9 +219,9 @@ def check_odgen(odgen: Path, address: str) -> tuple[int, list[str]]:
         expect(0, rf"can be {DEVICE} ", "scan", spec, timeouts=SCANS)
         expect(0, "", "backup", spec, "--out", file, *of_node)
         expect(0, "", "compare", spec, file, *of_node)
-        expect(0, "", "write", spec, "EFC target position=88.00 °", *of_node)
+        expect(0, "", "write", spec, "EFC target position=88.00 °", "--yes", *of_node)
         expect(3, "567Ah", "compare", spec, file, *of_node)
-        expect(0, "567Ah", "restore", spec, file, *of_node)
+        expect(0, "567Ah", "restore", spec, file, "--yes", *of_node)
         expect(0, "", "compare", spec, file, *of_node)
     return done, failures
 

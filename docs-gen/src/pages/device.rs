@@ -37,6 +37,7 @@ impl Source<'_> {
             about: self.text(&device.about),
             facts: self.facts(device),
             dynamic_channels: self.dynamic_channels(device),
+            modules: self.modules(device),
             overview,
             details: self.not_in_chapters(device, &pdos),
             objects,
@@ -157,6 +158,34 @@ impl Source<'_> {
             format!("dynamic-channels-{}", device.key),
             "dynamic-channels",
             Cell::plain(self.word(Word::DynamicChannels)),
+            vec![grid],
+        ))
+    }
+
+    fn modules(&self, device: &Dictionary) -> Option<Table> {
+        let modules = &device.further.as_ref()?.modules;
+        if modules.is_empty() {
+            return None;
+        }
+        let list = |indices: &BTreeSet<Index>| {
+            Cell::plain(indices.iter().map(Index::to_string).collect::<Vec<_>>().join(", "))
+        };
+        let rows = modules.iter().map(|(number, module)| {
+            let [number, name, code] =
+                [number.to_string(), module.product_name.clone(), module.order_code.clone()].map(Cell::plain);
+            Row::of(vec![number, name, code, list(&module.brings), list(&module.extends)])
+        });
+        let grid = Columns::new()
+            .right(self, "number", Word::Number)
+            .left(self, "name", Word::Name)
+            .left(self, "order_code", Word::OrderCode)
+            .left(self, "brings", Word::Brings)
+            .left(self, "extends", Word::Extends)
+            .grid(rows.collect(), &["number", "name", "order_code"]);
+        Some(Table::unnumbered(
+            format!("modules-{}", device.key),
+            "modules",
+            Cell::plain(self.word(Word::Modules)),
             vec![grid],
         ))
     }

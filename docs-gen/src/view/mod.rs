@@ -287,6 +287,8 @@ pub struct DeviceView {
     pub facts: Table,
     /// Where a PLC may create network variables; `None` where it may nowhere.
     pub dynamic_channels: Option<Table>,
+    /// The modules that a bus coupler takes; `None` of any other device.
+    pub modules: Option<Table>,
     /// Overview of all objects.
     pub overview: Table,
     /// The objects.

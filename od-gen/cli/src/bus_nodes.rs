@@ -7,6 +7,7 @@ use clap::Args;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{Dictionary, EntryId, Index, SubIndex, System, Value};
 use od_spec::plant::shared_cob_id;
+use od_spec::source::SourceMap;
 use od_spec::visible::visible;
 
 use crate::exit::ERRORS;
@@ -51,8 +52,14 @@ const SERIAL_NUMBER: EntryId = EntryId { index: Index(0x1018), sub: SubIndex(4) 
 
 /// Nodes, and what their devices belong to.
 pub(crate) struct BusNodes {
-    systems: Vec<Arc<System>>,
+    systems: Vec<Described>,
     nodes: Vec<BusNode>,
+}
+
+/// What a file describes, with its text.
+struct Described {
+    system: Arc<System>,
+    sources: Arc<SourceMap>,
 }
 
 struct BusNode {
@@ -66,7 +73,15 @@ struct BusNode {
 impl BusNodes {
     /// The nodes, each with its node-ID, its system and its device.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (u8, &System, &Dictionary)> {
-        self.nodes.iter().filter_map(|node| Some((node.id, &**self.systems.get(node.system)?, &node.device)))
+        self.with_sources().map(|(id, system, device, _)| (id, system, device))
+    }
+
+    /// The same, each with the texts of its file, which messages about its device show.
+    pub(crate) fn with_sources(&self) -> impl Iterator<Item = (u8, &System, &Dictionary, &SourceMap)> {
+        self.nodes.iter().filter_map(|node| {
+            let Described { system, sources } = self.systems.get(node.system)?;
+            Some((node.id, &**system, &node.device, &**sources))
+        })
     }
 
     /// Reads the specifications of a command line and finds its nodes in them; the exit code after a message when it cannot.
@@ -85,7 +100,8 @@ impl BusNodes {
         let (mut systems, mut files) = (Vec::new(), Vec::new());
         for path in &paths {
             let (used, sources) = report.compile_with_sources(path).ok_or(ERRORS)?;
-            systems.push(Arc::new(used.system));
+            let sources = Arc::new(sources);
+            systems.push(Described { system: Arc::new(used.system), sources: Arc::clone(&sources) });
             files.push(used.node.map(|node| (node, sources)));
         }
         let of_file = |system: usize| files.get(system).and_then(Option::as_ref);
@@ -110,9 +126,8 @@ impl BusNodes {
         if args.node.is_empty() {
             for (system, file) in files.iter().enumerate() {
                 let Some(id) = file.as_ref().and_then(|(node, _)| node.stated_id()) else { continue };
-                let Some(device) = found.systems.get(system).and_then(|system| system.devices.first()) else {
-                    continue;
-                };
+                let described = found.systems.get(system);
+                let Some(device) = described.and_then(|one| one.system.devices.first()) else { continue };
                 let device = as_node(system, device, id);
                 found.push(BusNode { id, system, device }, report)?;
             }
@@ -160,7 +175,8 @@ impl BusNodes {
             let help = "name a plant file, or the nodes of a specification with `--node ID=KEY`";
             return Err(report.refuse(plant_file::no_plant(path, help)));
         }
-        let plant_file::Read { plant, settled, .. } = plant_file::read(path, report)?;
+        let plant_file::Read { plant, settled, sources, .. } = plant_file::read(path, report)?;
+        let sources = Arc::new(sources);
         let machine = plant_file::machine(&plant, args.site.as_deref(), args.machine.as_deref())
             .map_err(|diagnostic| report.refuse(*diagnostic))?;
         let mut found = Self { systems: Vec::new(), nodes: Vec::new() };
@@ -170,7 +186,9 @@ impl BusNodes {
                 continue;
             };
             let system = found.systems.len();
-            found.systems.push(Arc::clone(&device.system));
+            let system_and_text =
+                Described { system: Arc::clone(&device.system), sources: Arc::clone(&sources) };
+            found.systems.push(system_and_text);
             let mut commissioning = plant.commissioning(node, settled);
             if let Some(serial) = commissioning.serial_number {
                 commissioning.values.insert(SERIAL_NUMBER, Value::Integer(serial.into()));
@@ -185,11 +203,12 @@ impl BusNodes {
     fn device(&self, key: Option<&str>, report: &Report) -> Result<(usize, &Dictionary), u8> {
         let all = || {
             let systems = self.systems.iter().enumerate();
-            systems.flat_map(|(at, system)| system.devices.iter().map(move |device| (at, device)))
+            systems.flat_map(|(at, one)| one.system.devices.iter().map(move |device| (at, device)))
         };
         if let Some(key) = key {
             let found = all().find(|(_, device)| device.key == key);
-            return found.ok_or_else(|| report.unknown_device(self.systems.iter().map(Arc::as_ref), key));
+            return found
+                .ok_or_else(|| report.unknown_device(self.systems.iter().map(|one| &*one.system), key));
         }
         let mut devices = all();
         if let (Some(only), None) = (devices.next(), devices.next()) {

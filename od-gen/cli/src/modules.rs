@@ -3,26 +3,35 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use od_formats::eds::write_eds;
 use od_gen::source::{FileLoader, compile_file_with_modules};
-use od_spec::Compiled;
 use od_spec::diag::Diagnostic;
 use od_spec::eds::codes::UNKNOWN_MODULE;
-use od_spec::model::{Dictionary, Further, Module};
+use od_spec::model::{Dictionary, Further, Module, SystemSource};
 use od_spec::source::SourceMap;
+use od_spec::{Compiled, NoFiles, compile_with_modules};
 
 use crate::report::shown;
 
 /// So many modules are named in a message.
 const NAMED: usize = 12;
+/// So many can be plugged in: 1027h has sub-indices up to FEh, one for each of them.
+const MOST: usize = 254;
 
-/// The device of a file with modules plugged in, which are named by number, order code or product name.
+/// The device of a file with modules plugged in, which are named by number, order code or product name. Of a specification,
+/// its EDS is the file, as that is what modules are made for.
 pub(crate) fn plugged_in(
     names: &[String],
     path: &Path,
+    key: Option<&str>,
     coupler: &Compiled,
     sources: &mut SourceMap,
 ) -> Result<Compiled, Box<Diagnostic>> {
-    let alone = coupler.system.as_ref().and_then(|system| system.devices.first());
+    let coupler = coupler.system.as_ref().and_then(|system| {
+        let is_meant = |device: &&Dictionary| key.is_none_or(|key| device.key == key);
+        Some((system, system.devices.iter().find(is_meant)?))
+    });
+    let alone = coupler.map(|(_, device)| device);
     let nothing = Further::default();
     let further = alone.and_then(|device| device.further.as_deref()).unwrap_or(&nothing);
     if further.modules.is_empty() {
@@ -32,8 +41,19 @@ pub(crate) fn plugged_in(
     }
     let numbers = names.iter().map(|name| number(name.trim(), &further.modules));
     let numbers: Vec<u32> = numbers.collect::<Result<_, _>>()?;
+    if numbers.len() > MOST {
+        let message = format!("{} modules are named, and 1027h has entries for {MOST}", numbers.len());
+        return Err(refusal(message, "name no more than that"));
+    }
     *sources = SourceMap::new();
-    let whole = compile_file_with_modules(path, sources, &mut FileLoader::default(), &numbers);
+    let whole = match coupler.filter(|(system, _)| system.source == SystemSource::Specification) {
+        Some((system, device)) => {
+            let eds = String::from_utf8_lossy(&write_eds(system, device)).into_owned();
+            let root = sources.add(format!("{}.eds", device.key), eds);
+            compile_with_modules(sources, root, &mut NoFiles, &numbers)
+        }
+        None => compile_file_with_modules(path, sources, &mut FileLoader::default(), &numbers),
+    };
     let count = |device: &Dictionary| device.entries().count();
     let with = whole.system.as_ref().and_then(|system| system.devices.first());
     let has_objects = |module: &Module| !module.brings.is_empty() || !module.extends.is_empty();

@@ -8,6 +8,7 @@ use od_spec::model::{
 
 use super::change::{Change, Class, Place};
 use super::entries::Pair;
+use super::further::editor;
 use super::rules;
 use super::scope::Scope;
 use super::texts::texts;
@@ -101,6 +102,7 @@ impl Devices<'_> {
             }
         }
         changes.extend(map);
+        changes.extend(editor(old, new));
         for change in &mut changes {
             if change.name.is_empty() {
                 change.name = name(old, new, &change.place);

@@ -2,15 +2,13 @@
 //! has no place at the end.
 
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use od_spec::diag::codes::{XDD_DISABLED, XDD_LEFT_OUT};
 use od_spec::diag::{Code, Diagnostic, Diagnostics, Severity};
-use od_spec::eds::codes::{LINKS_OF_NOTHING, MODULES, NO_INDEX, NO_PLACE, OBJECT_LEFT_OUT};
-use od_spec::eds::{Document, Owner, owner};
-use od_spec::model::{
-    Dictionary, EditorProperty, EntryId, Further, Index, KeyValue, Module, ObjectKind, Storage, System,
-};
+use od_spec::eds::codes::{LINKS_OF_NOTHING, NO_INDEX, NO_PLACE, OBJECT_LEFT_OUT};
+use od_spec::eds::{Document, Owner, cannot_hold, cannot_hold_section};
+use od_spec::model::{Dictionary, EditorProperty, Further, KeyValue, Object, ObjectKind, System};
 use od_spec::source::{FileId, SourceMap, Spanned};
 use od_spec::visible::straight;
 use od_spec::wording::{Notation, Wording};
@@ -33,10 +31,9 @@ pub struct Imported {
     pub without_place: usize,
 }
 
-/// Codes about facts that are kept nowhere but in the list at the end: left out objects, modules, links of nothing, values without a
+/// Codes about facts that are kept nowhere but in the list at the end: left out objects, links of nothing, values without a
 /// place.
-const WITHOUT_PLACE: [&Code; 6] =
-    [OBJECT_LEFT_OUT, MODULES, LINKS_OF_NOTHING, NO_PLACE, XDD_DISABLED, XDD_LEFT_OUT];
+const WITHOUT_PLACE: [&Code; 5] = [OBJECT_LEFT_OUT, LINKS_OF_NOTHING, NO_PLACE, XDD_DISABLED, XDD_LEFT_OUT];
 
 /// Writes the specification of a compiled EDS or DCF. `None` where there is no model.
 ///
@@ -57,32 +54,14 @@ pub fn import(
     let document = if is_xdd { Document::default() } else { Document::scan(root, &text) };
     let mut options =
         Options { head: vec![format!("Made from {}.", base_name(file.name()))], ..Options::default() };
-    let properties = if is_xdd { properties(device) } else { Vec::new() };
-    let remarks = document
-        .remarks()
-        .into_iter()
-        .map(|remark| (place(device, remark.owner), Cow::Borrowed(remark.text)));
-    let remarks =
-        remarks.chain(properties.iter().map(|(place, text)| (Some(*place), Cow::Borrowed(text.as_str()))));
-    let mut without_place = Vec::new();
-    let mut remarks: Vec<_> = remarks.collect();
-    let nothing = Further::default();
-    let further = device.further.as_deref().unwrap_or(&nothing);
-    for (section, key) in
-        further.keys.iter().flat_map(|(section, keys)| keys.iter().map(move |key| (section, key)))
-    {
-        match (place(device, owner(section)), owner(section)) {
-            (Some(place), _) => remarks.push((Some(place), Cow::Owned(line(key)))),
-            (None, Owner::File) => without_place.push(format!("[{section}] {}", line(key))),
-            // Of an object that is left out, which is said.
-            (None, Owner::Object(_) | Owner::Entry(_)) => {}
-        }
-    }
-    for section in &further.sections {
-        without_place.extend(section.keys.iter().map(|key| format!("[{}] {}", section.name, line(key))));
-    }
-    without_place.extend(further.modules.iter().map(|(number, module)| described(*number, module)));
-    remarks.retain(|(place, text)| !place.is_some_and(|place| is_said_by_stored(device, place, text)));
+    let remarks = document.remarks().into_iter();
+    // What is said by properties of CANopenEditor is in the model, or was reported.
+    let remarks = remarks
+        .map(|remark| (place(device, remark.owner), Cow::Borrowed(remark.text)))
+        .filter(|(place, text)| place.is_none() || !is_property(text));
+    let remarks: Vec<_> = remarks.collect();
+    let mut without_place = device.further.as_deref().map(not_held).unwrap_or_default();
+    without_place.extend(groups_left_out(device));
     let usual = usual(&remarks, device);
     for (place, text) in remarks {
         match place {
@@ -95,7 +74,6 @@ pub fn import(
     options
         .head
         .extend(usual.into_iter().map(|(text, count)| format!("{text}, at {count} of {entries} entries")));
-    options.head.extend(further.comments.iter().cloned());
     for finding in &compiled.diagnostics {
         let Some(label) = finding.labels.first() else { continue };
         let line = file.line_col(label.span.start).line;
@@ -121,34 +99,35 @@ pub fn import(
     }))
 }
 
-/// What CANopenEditor keeps in the properties of an XDD, where a specification has no key for it.
-fn properties(device: &Dictionary) -> Vec<(Place, String)> {
-    let mut texts = Vec::new();
-    for object in device.objects.values() {
-        let Some(notes) = &object.editor else { continue };
-        let of_object = notes.of_object().map(|one| (Owner::Object(object.index), one));
-        let of_entries = object.entries.iter().filter_map(|entry| {
-            let id = EntryId { index: object.index, sub: entry.sub };
-            Some((Owner::Entry(id), notes.of_entry(entry.sub)?))
-        });
-        for (owner, (property, value)) in of_object.chain(of_entries) {
-            texts.extend(place(device, owner).map(|place| (place, format!("{}={value}", property.name()))));
-        }
+/// Keys that no line of an EDS can hold as they are.
+fn not_held(further: &Further) -> Vec<String> {
+    let sections =
+        further.keys.iter().chain(further.all_sections().map(|section| (&section.name, &section.keys)));
+    let comments = further.comments.iter().flatten().enumerate();
+    let comments = comments.filter(|(_, line)| cannot_hold("Line99999", line).is_some());
+    let mut lines: Vec<String> =
+        comments.map(|(at, line)| format!("[Comments] Line{}={line}", at + 1)).collect();
+    for (section, keys) in sections {
+        let is_held = cannot_hold_section(section).is_none();
+        let lost = keys.iter().filter(|one| !is_held || cannot_hold(&one.key, &one.value).is_some());
+        lines.extend(lost.map(|KeyValue { key, value, .. }| format!("[{section}] {key}={value}")));
     }
-    texts
+    lines
 }
 
-/// Whether a text says the group of an object, and `stored:` of its entries says the same.
-fn is_said_by_stored(device: &Dictionary, place: Place, text: &str) -> bool {
-    let Place::Object(index) = place else { return false };
-    let Some(object) = device.objects.get(&index).filter(|object| object.is_stored()) else { return false };
-    let group = object.editor.as_ref().and_then(|notes| notes.storage_group.as_deref());
-    let is_of_standard =
-        |group: &&str| matches!(Storage::of_group(group), Storage::Communication | Storage::Application);
-    let names = [EditorProperty::StorageGroup.key(), EditorProperty::StorageGroup.name()];
-    group
-        .filter(is_of_standard)
-        .is_some_and(|group| names.into_iter().any(|name| text == format!("{name}={group}")))
+/// The groups that no specification can name, as entries of the object are stored by something else.
+fn groups_left_out(device: &Dictionary) -> Vec<String> {
+    let objects = device.objects.values().filter(|object| object.stored_beside_group().is_some());
+    let group = |object: &Object| {
+        let group = object.editor.as_ref()?.storage_group.as_deref()?;
+        Some(format!("the group {group} of {}, whose entries are stored otherwise", object.index))
+    };
+    objects.filter_map(group).collect()
+}
+
+/// Whether a comment is a property of CANopenEditor.
+fn is_property(text: &str) -> bool {
+    text.split_once('=').is_some_and(|(key, _)| EditorProperty::of_name(key.trim()).is_some())
 }
 
 /// What stands at most of the entries, such as a maker's key that always has the same value, and at how many: it is said once.
@@ -192,22 +171,6 @@ fn place(device: &Dictionary, owner: Owner) -> Option<Place> {
             Some(if is_entry { Place::Entry(id) } else { Place::Object(id.index) })
         }
     }
-}
-
-/// A key and its value on a line.
-fn line(KeyValue { key, value, .. }: &KeyValue) -> String {
-    format!("{key}={value}")
-}
-
-/// A module, and what it has to do with objects.
-fn described(number: u32, module: &Module) -> String {
-    let list =
-        |indices: &BTreeSet<Index>| indices.iter().map(Index::to_string).collect::<Vec<_>>().join(", ");
-    let objects = [("brings", &module.brings), ("extends", &module.extends)];
-    let objects = objects.into_iter().filter(|(_, indices)| !indices.is_empty());
-    let mut parts = vec![format!("module {number}: {} ({})", module.product_name, module.order_code)];
-    parts.extend(objects.map(|(what, indices)| format!("{what} {}", list(indices))));
-    parts.join("; ")
 }
 
 /// What a DCF says of its node.

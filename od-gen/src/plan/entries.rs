@@ -193,7 +193,9 @@ impl<'a> Plan<'a> {
             sparse: !subs.eq(0..object.entries.len()),
             only_values: matches!(listed, Some(Listed::Only(_))),
         };
-        let limits = limits(entry).map_or(NONE, |limits| self.limits.position(limits));
+        // Of the wrong way round, which an EDS can have them, they would permit no value.
+        let limits = limits(entry).filter(|(low, high)| low <= high);
+        let limits = limits.map_or(NONE, |limits| self.limits.position(limits));
         let values = listed.map_or(NONE, |listed| self.values.position(listed.into_values()));
         let condition = match entry.writable_when.as_ref().filter(|_| flags.write) {
             None => NONE,

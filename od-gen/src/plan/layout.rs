@@ -86,12 +86,15 @@ pub fn lay_out(device: &Dictionary, diagnostics: &mut Diagnostics) -> Layout {
     let mut layout = Layout { align: 4, ..Layout::default() };
     let mut variables = Vec::new();
     for (id, object, entry) in device.entries() {
-        let Some(size) = size(id, entry, diagnostics) else { continue };
+        let is_value = entry.alias.is_none() && entry.data_type != DataType::Domain;
+        let constant = constant(object, entry).filter(|_| is_value);
+        let size = constant.as_ref().map(Vec::len).or_else(|| size(id, entry, diagnostics));
+        let Some(size) = size else { continue };
         let place = if entry.alias.is_some() {
             Place::Alias
         } else if entry.data_type == DataType::Domain {
             Place::Application
-        } else if let Some(bytes) = constant(object, entry) {
+        } else if let Some(bytes) = constant {
             Place::Constant(layout.constant(&bytes))
         } else {
             variables.push(Variable { id, entry, size });
@@ -156,16 +159,22 @@ impl Layout {
 /// The COB-ID of a PDO that does not exist.
 static NOT_VALID: Value = Value::Integer(1 << 31);
 
+/// No errors.
+static NONE_YET: Value = Value::Integer(0);
+
 /// The value after a factory reset, where there is one. A PDO for whose COB-ID nobody states a value does not exist: 0 would be the
-/// identifier that stops nodes.
+/// identifier that stops nodes. 1003h.0 counts the errors that occurred; an EDS that has the size of the list there means none.
 pub fn factory(id: EntryId, entry: &Entry) -> Option<&Value> {
-    let is_cob_id = Role::of(id.index) == Role::PdoCommunication && id.sub == SubIndex(1);
-    entry.default.as_ref().or_else(|| is_cob_id.then_some(&NOT_VALID))
+    match (Role::of(id.index), id.sub) {
+        (Role::PdoCommunication, SubIndex(1)) => entry.default.as_ref().or(Some(&NOT_VALID)),
+        (Role::ErrorHistory, SubIndex(0)) => Some(&NONE_YET),
+        _ => entry.default.as_ref(),
+    }
 }
 
 /// The value of an entry that never changes: a constant, or what follows from the shape of the dictionary.
 fn constant(object: &Object, entry: &Entry) -> Option<Vec<u8>> {
-    let counts = object.is_structured() && entry.sub == SubIndex(0);
+    let counts = object.is_structured() && entry.sub == SubIndex(0) && object.role() != Role::ErrorHistory;
     let derived = !entry.access.is_writable() && (counts || object.role().is_pdo_parameter());
     let plain = !matches!(entry.default, Some(Value::NodeId(_)));
     if plain && (entry.access == Access::Const || derived) {
@@ -174,22 +183,13 @@ fn constant(object: &Object, entry: &Entry) -> Option<Vec<u8>> {
     None
 }
 
-/// Bytes of a value; of a string its capacity, of a DOMAIN 0.
+/// Bytes of a value that is no constant; of a string its capacity, of a DOMAIN 0.
 fn size(id: EntryId, entry: &Entry, diagnostics: &mut Diagnostics) -> Option<usize> {
     if let Some(bits) = entry.data_type.bits() {
         return Some(usize::from(bits.div_ceil(8)));
     }
     if entry.data_type.family() == Family::Domain {
         return Some(0);
-    }
-    let constant = entry.access == Access::Const;
-    let length = entry
-        .default
-        .as_ref()
-        .filter(|_| constant)
-        .and_then(|value| value.bytes_for(entry.data_type, NO_NODE));
-    if let Some(bytes) = length {
-        return Some(bytes.len());
     }
     if let Some(capacity) = entry.capacity {
         return Some(capacity.into());

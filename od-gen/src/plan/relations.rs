@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use od_spec::diag::Diagnostics;
 use od_spec::expr::Expr;
-use od_spec::model::{DataType, EntryId, Index, Pdo, PdoTarget, StateMachine, SubIndex, SystemSource};
+use od_spec::model::{DataType, EntryId, Index, Pdo, PdoTarget, StateMachine, SubIndex, SystemSource, Value};
 
 use super::condition::{self, Unusable};
 use super::language::{Role, ScopeKind};
@@ -63,10 +63,26 @@ impl Plan<'_> {
                 return None;
             }
         }
-        // Placeholders are no rows; a mapping with any of them is searched, and so is one that does not lie in one piece.
-        let known = fields.len() == pdo.map.len() && self.lies_in_one_piece(mapping, fields.len());
+        // Placeholders are no rows; a mapping with any of them is searched, and so is one that does not lie in one piece, or that
+        // an EDS states wrongly.
+        let count = self.entry(mapping)?.entry.default.as_ref().and_then(Value::integer);
+        let known = fields.len() == pdo.map.len()
+            && fields.len() <= 64
+            && count == i128::try_from(fields.len()).ok()
+            && fields.iter().all(|field| self.has_width(field))
+            && self.lies_in_one_piece(mapping, fields.len());
         let rows = fields.iter().filter(|_| known).map(|field| field.row).collect();
         Some(ServedPdo { cob_id, mapping, rows })
+    }
+
+    /// Whether a field is as wide as its entry.
+    fn has_width(&self, field: &PlannedField) -> bool {
+        let attributes =
+            self.entry(field.row).and_then(|planned| self.attributes.get(usize::from(planned.attributes)));
+        attributes.is_some_and(|entry| match entry.data_type {
+            DataType::Boolean => field.bits == 1,
+            _ => usize::from(field.bits) == entry.size * 8,
+        })
     }
 
     /// Whether the mapping parameters behind a number of mapped entries are all constants, or lie in the image one behind the other.

@@ -5,18 +5,19 @@ mod pdos;
 pub(crate) mod plant;
 mod setting;
 
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use crate::expr::{AnyName, Expr, without_names};
 use crate::keys::{
     any_error_keys, axis_keys, block_keys, channel_keys, command_keys, constraint_keys, device_keys,
-    erratum_keys, error_keys, file_keys, machine_keys, mark_keys, revision_keys, signal_keys, source_keys,
-    span_keys, state_keys, switch_keys, timing_keys, timing_step_keys, transition_keys, unit_keys,
-    vendor_keys,
+    erratum_keys, error_keys, file_keys, machine_keys, mark_keys, notes_keys, revision_keys, signal_keys,
+    source_keys, span_keys, state_keys, switch_keys, timing_keys, timing_step_keys, transition_keys,
+    unit_keys, vendor_keys,
 };
 use crate::model::{
     Access, BitPattern, BitUsage, ByDevice, Date, DateTime, Direction, Edge, EditorNotes, ErratumKind,
-    ErrorKind, Index, Outside, ProseKind, Ratio, Rounding, Series, SubIndex, Text,
+    ErrorKind, Index, Outside, PdoMapping, ProseKind, Ratio, Rounding, Series, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 
@@ -183,6 +184,21 @@ file_keys! { declaration
     FileDecl {}
 }
 
+/// Keys of a section of the EDS.
+#[derive(Debug)]
+pub(crate) struct FileSectionDecl {
+    pub name: Name,
+    /// With their values.
+    pub keys: Vec<(Name, Name)>,
+}
+
+notes_keys! { declaration
+    #[derive(Debug)]
+    NotesDecl {
+        range: Spanned<IndexRange>,
+    }
+}
+
 any_error_keys! { declaration
     #[derive(Debug)]
     AnyErrorDecl {}
@@ -332,7 +348,7 @@ pub(crate) struct ObjectDecl {
     pub sub0: Option<Box<EntryDecl>>,
     pub omit: Vec<Spanned<i128>>,
     pub links: Option<Vec<Spanned<Index>>>,
-    /// What CANopenEditor keeps of it; no specification has it.
+    /// What CANopenEditor keeps of it; a specification says it at the device.
     pub editor: Option<Box<EditorNotes>>,
     pub entry: EntryDecl,
 }

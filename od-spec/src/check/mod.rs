@@ -39,6 +39,7 @@ pub mod codes {
     pub use super::names::definitions_are_used::CODE as UNUSED_DEFINITION;
     pub use super::names::names_are_unique::CODE as DUPLICATE_NAME;
     pub use super::names::names_fit_eds::CODE as NAME_NOT_FOR_EDS;
+    pub(crate) use super::names::names_keep_their_characters::CODE as NAME_WITHOUT_FORM;
     pub use super::names::texts_fit_eds::CODE as NOT_FOR_EDS;
     pub use super::pdo::granularity_fits_mapping::CODE as GRANULARITY_DIFFERS;
     pub use super::pdo::mappable_types_have_a_length::CODE as NO_LENGTH;

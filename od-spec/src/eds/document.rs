@@ -46,26 +46,22 @@ impl<'t> Document<'t> {
         Self { file: Some(file), lines: scan::lines(text), origins: Vec::new() }
     }
 
-    /// A translation of a file, still without sections.
-    #[cfg(feature = "xdd")]
+    /// A translation of what a file says in another notation, still without sections.
     pub(crate) const fn translated(file: FileId) -> Self {
         Self { file: Some(file), lines: Vec::new(), origins: Vec::new() }
     }
 
     /// Adds the header of a section to a translation, with comments above it.
-    #[cfg(feature = "xdd")]
     pub(crate) fn push_header(&mut self, name: &str, place: Span, comments: &[String]) {
         self.lines.extend(comments.iter().map(|text| Line::new_comment(text)));
         self.push_from(Line::new_header(name), place);
     }
 
     /// Adds a key and its value to the last section of a translation.
-    #[cfg(feature = "xdd")]
     pub(crate) fn push_key(&mut self, key: &str, value: &str, place: Span) {
         self.push_from(Line::new_key_value(key, value), place);
     }
 
-    #[cfg(feature = "xdd")]
     fn push_from(&mut self, line: Line<'t>, origin: Span) {
         let number = u32::try_from(self.origins.len()).unwrap_or(u32::MAX);
         self.lines.push(line.numbered(number));

@@ -51,3 +51,4 @@ pub use dates::{date_text, time_text};
 pub use document::{Document, Section, SectionRef};
 pub use line::{Line, LineEnd, LineKind};
 pub use owner::{GENERATED, MARK, Owner, Remark, owner};
+pub use read::{cannot_hold, cannot_hold_section};

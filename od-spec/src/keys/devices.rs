@@ -3,6 +3,7 @@
 use super::errors::ANY_ERROR;
 use super::shape::{Key, KeyKind, Keys, NameOf, Shape, U8, U32};
 use super::table::keys;
+use crate::model::PdoMapping;
 
 macro_rules! device_keys {
     ($then:ident $($head:tt)*) => {
@@ -24,7 +25,8 @@ macro_rules! device_keys {
             "dynamic-channels": Shape::MapOf(KeyKind::Indices, &Shape::Map(&CHANNEL)) => dynamic_channels: Vec<ChannelDecl>, "indices at which a PLC may create network variables", "{0xA080..0xA0BF: {type: unsigned8, access: ro, offset: 0}}";
             "features": Shape::List(&Shape::Feature) => features: Vec<Spanned<FeatureChoice>>, "features of the used libraries that the device has; one with channels is given their number", "[heartbeat producer, digital inputs: 16]";
             "any-error": Shape::Map(&ANY_ERROR) => any_error: Option<AnyErrorDecl>, "what holds for every error of the device, said once", "{reset: bit 7 of 6040h from 0 to 1}";
-            "eds": Shape::Map(&FILE) => eds: Option<FileDecl>, "what the EDS says about itself";
+            "canopennode": Shape::MapOf(KeyKind::Indices, &Shape::Map(&NOTES)) => canopennode: Vec<NotesDecl>, "what the stack CANopenNode and CANopenEditor keep of objects, by index", "{0x1400..0x1403: {group: PERSIST_COMM, count: RPDO}}";
+            "eds": Shape::Map(&FILE) => eds: Option<FileDecl>, "what the EDS says about itself, and what it has beside what follows";
             "eds-defaults": Shape::Choice(&["safe", "own", "all"]) => eds_defaults: Option<Name>, "`safe` withholds the defaults of writable entries that are locked or stored (other than as communication parameters) from the EDS; `own` withholds also those that only a library states; `all` writes every default; safe unless given";
         } }
     };
@@ -53,6 +55,23 @@ channel_keys! { keys
     CHANNEL = "a dynamic channel"
 }
 
+macro_rules! notes_keys {
+    ($then:ident $($head:tt)*) => {
+        $then! { $($head)* {
+            "group": Shape::Text => group: Option<Name>, "storage group that the values lie in, the variable `OD_PERSIST_MFR` of `PERSIST_MFR`; that of what stores them unless given", "PERSIST_MFR";
+            "count": Shape::Text => count: Option<Name>, "counter that the object adds to, `OD_CNT_VALVE` of `VALVE`", "VALVE";
+            "srdo": Shape::MapOf(KeyKind::Number, &Shape::Choice(PdoMapping::WORDS)) => srdo: BTreeMap<u8, Spanned<PdoMapping>>, "SRDOs that its entries may be mapped to, by sub-index; 0 is an object without sub-indices", "{1: transmit}";
+            "requests-tpdos": Shape::YesNo => requests_tpdos: Option<Spanned<bool>>, "whether a write of the application may request the TPDOs that map it; no unless given";
+        } }
+    };
+}
+pub(crate) use notes_keys;
+
+notes_keys! { keys
+    /// `canopennode:` of a device.
+    NOTES = "an object for CANopenNode"
+}
+
 macro_rules! file_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
@@ -63,6 +82,8 @@ macro_rules! file_keys {
             "modified-by": Shape::HeaderText => modified_by: Option<Name>, "who changed it; `created-by` unless given";
             "file-version": U8 => version: Option<Spanned<i128>>, "version of the file; 1 unless given";
             "file-revision": U8 => revision: Option<Spanned<i128>>, "revision of the file; 0 unless given";
+            "comments": Shape::List(&Shape::Text) => comments: Option<Vec<Name>>, "lines of `[Comments]`; what the device and its file are about unless given", "[For line 3 only.]";
+            "sections": Shape::MapOf(KeyKind::Name, &Shape::MapOf(KeyKind::Name, &Shape::Text)) => sections: Vec<FileSectionDecl>, "keys and sections that the EDS has beside those that follow, by the names of their sections", "{DeviceInfo: {NG_Slave: 1}, 2001sub1: {SRDOMapping: 1}, Tools: {Items: 1}}";
         } }
     };
 }

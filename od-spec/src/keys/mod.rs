@@ -18,7 +18,7 @@ mod table;
 mod types;
 
 pub use constraints::CONSTRAINT;
-pub use devices::{CHANNEL, DEVICE, FILE};
+pub use devices::{CHANNEL, DEVICE, FILE, NOTES};
 pub use entry::{ENTRY, ENTRY_EDS_KEYS, SPECIAL};
 pub use errors::{ANY_ERROR, ERROR};
 pub use file::{ALLOWED, PART, PART_OF, PARTS, REVISION, SOURCE, SPEC, SPEC_VERSION, VENDOR};
@@ -39,7 +39,7 @@ pub use shape::{CHANNELS, Key, KeyKind, Keys, NameOf, NumberedName, Shape, VERSI
 pub use types::{BIT, ENUM_VALUE, MODE_BIT, TYPE, UNIT};
 
 pub(crate) use constraints::constraint_keys;
-pub(crate) use devices::{channel_keys, device_keys, file_keys};
+pub(crate) use devices::{channel_keys, device_keys, file_keys, notes_keys};
 pub(crate) use entry::entry_keys;
 pub(crate) use errors::{any_error_keys, error_keys};
 pub(crate) use file::{revision_keys, source_keys, vendor_keys};

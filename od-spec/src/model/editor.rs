@@ -4,6 +4,12 @@ use std::collections::BTreeMap;
 
 use super::{PdoMapping, Storage, SubIndex};
 
+/// The group of what nothing stores.
+const USUAL_GROUP: &str = "RAM";
+
+/// The longest name that becomes a part of one in C.
+const LONGEST_NAME: usize = 64;
+
 /// What CANopenEditor keeps of an object for the stack CANopenNode. The lengths of texts are not here:
 /// they are the [`capacity`](super::Entry::capacity) of an entry.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -21,6 +27,16 @@ pub struct EditorNotes {
 }
 
 impl EditorNotes {
+    /// Whether a text can be the name of a group or counter, which is a part of a name in C.
+    pub(crate) fn is_name(text: &str) -> bool {
+        text.len() <= LONGEST_NAME && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+    }
+
+    /// Names the group of the values, where it is not the usual one.
+    pub(crate) fn name_group(&mut self, group: Option<String>) {
+        self.storage_group = group.filter(|group| group != USUAL_GROUP);
+    }
+
     /// Whether nothing is kept.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
@@ -88,7 +104,7 @@ impl EditorProperty {
     }
 
     /// The property that a name in an XDD or a key in an EDS says.
-    pub(crate) fn of_name(name: &str) -> Option<Self> {
+    pub fn of_name(name: &str) -> Option<Self> {
         const ALL: [EditorProperty; 5] = [
             EditorProperty::CountLabel,
             EditorProperty::StorageGroup,

@@ -8,8 +8,8 @@ use super::Index;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Further {
-    /// The lines of `[Comments]`.
-    pub comments: Vec<String>,
+    /// The lines of `[Comments]`; `None` where a specification leaves them to what is made of it.
+    pub comments: Option<Vec<String>>,
     /// Keys in sections about something that the model holds, by the name of the section: `DeviceInfo`, `2000`, `2001sub1`.
     pub keys: BTreeMap<String, Vec<KeyValue>>,
     /// Sections about nothing that the model holds, without those of modules.
@@ -21,6 +21,16 @@ pub struct Further {
 }
 
 impl Further {
+    /// Whether nothing is said.
+    pub fn is_empty(&self) -> bool {
+        let Self { comments, keys, sections, modules, connected } = self;
+        comments.as_ref().is_none_or(Vec::is_empty)
+            && keys.is_empty()
+            && sections.is_empty()
+            && modules.is_empty()
+            && connected.is_empty()
+    }
+
     /// Whether some module brings an object, or further sub-indices of it.
     pub fn is_of_modules(&self, index: Index) -> bool {
         self.modules.values().any(|module| module.brings.contains(&index) || module.extends.contains(&index))

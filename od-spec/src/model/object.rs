@@ -154,6 +154,13 @@ impl Object {
         matches!(self.kind, ObjectKind::Array | ObjectKind::Record)
     }
 
+    /// An entry that is stored by something else than the group that is named for the values of the object.
+    pub fn stored_beside_group(&self) -> Option<&Entry> {
+        let group = self.editor.as_ref()?.storage_group.as_deref()?;
+        let storage = Storage::of_group(group);
+        self.entries.iter().find(|entry| entry.stored != Storage::No && entry.stored != storage)
+    }
+
     /// Whether a "store parameters" command or the device itself keeps any entry.
     pub fn is_stored(&self) -> bool {
         self.entries.iter().any(|entry| entry.stored != Storage::No)

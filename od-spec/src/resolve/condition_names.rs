@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::bit_values;
-use super::refs::{Broken, Meant, Names};
+use super::refs::{Broken, Names};
 use super::scope::unknown;
 use crate::ast::Name;
 use crate::check::codes as rule_codes;
@@ -214,7 +214,7 @@ impl Lookup for OfDevice<'_, '_> {
         // What cannot be found is reported by itself, and its values cannot be known.
         let entry = self.find(compared)?;
         let as_entry = self.own.names.get(name.text);
-        let is_entry = as_entry != Meant::Nothing;
+        let is_entry = as_entry.first().is_some();
         let Some(raw) = value(entry, name.text) else {
             let names = values(entry).iter().map(|value| value.name.as_str());
             let meant = self.diagnostics.suggestions.nearest(name.text, names).filter(|_| !is_entry);

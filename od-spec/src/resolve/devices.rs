@@ -12,7 +12,7 @@ use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use super::surroundings::{EdsDefaults, Surroundings};
 use super::types::words;
-use super::{aliases, condition_names, device_info, objects, pdos};
+use super::{aliases, canopennode, condition_names, device_info, objects, pdos};
 use crate::ast::{DeviceDecl, FrontEnd, Name, ObjectDecl, PdosDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits::{DEVICES, ENTRIES_OF_DEVICE, ENTRIES_OF_FILE, Room};
@@ -97,6 +97,7 @@ pub(super) fn resolve<'a>(
                 &mut built.broken,
                 diagnostics,
             );
+            canopennode::add(device, &mut built.objects, &built.broken, diagnostics);
             condition_names::write_conditions(
                 &device.key.value,
                 &mut built.objects,

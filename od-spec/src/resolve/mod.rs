@@ -4,6 +4,7 @@ mod aliases;
 mod assigned;
 mod axes;
 pub(crate) mod bit_values;
+mod canopennode;
 mod channels;
 mod condition_names;
 mod constraints;

@@ -144,22 +144,23 @@ pub(crate) struct Names<'a> {
 }
 
 /// What a name stands for.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Meant {
+pub(crate) enum Meant<'a> {
     /// Nothing has it.
     Nothing,
     /// One entry.
     One(EntryId),
-    /// Several entries, in the order in which they were given.
-    Several(Vec<EntryId>),
+    /// Several: the objects and sub-indices of the first ones, as many as [`ambiguous`] wants.
+    Several(Vec<(&'a Object, SubIndex)>),
 }
 
-impl Meant {
+impl Meant<'_> {
     /// The first entry, where there is any.
     pub(crate) fn first(&self) -> Option<EntryId> {
         match self {
             Meant::One(id) => Some(*id),
-            Meant::Several(ids) => ids.first().copied(),
+            Meant::Several(found) => {
+                found.first().map(|(object, sub)| EntryId { index: object.index, sub: *sub })
+            }
             Meant::Nothing => None,
         }
     }
@@ -199,37 +200,24 @@ impl<'a> Names<'a> {
     }
 
     /// What a name stands for.
-    pub(crate) fn get(&self, name: &str) -> Meant {
-        let whole = self.named(name).map(|object| EntryId { index: object.index, sub: SubIndex(0) });
+    pub(crate) fn get(&self, name: &str) -> Meant<'a> {
+        let whole = self.named(name).map(|object| (object, SubIndex(0)));
         let members = name.match_indices('.').flat_map(|(dot, _)| {
             let (object, entry) = (&name[..dot], &name[dot + 1..]);
             self.named(object).filter(|object| object.is_structured()).flat_map(move |object| {
-                let meant = object.entries.iter().filter(move |one| one.is_called(entry));
-                meant.map(|one| EntryId { index: object.index, sub: one.sub })
+                object
+                    .entries
+                    .iter()
+                    .filter(move |one| one.is_called(entry))
+                    .map(move |one| (object, one.sub))
             })
         });
-        let found: Vec<EntryId> = whole.chain(members).collect();
+        let found: Vec<(&Object, SubIndex)> = whole.chain(members).take(Namesake::LISTED + 1).collect();
         match found.as_slice() {
             [] => Meant::Nothing,
-            [one] => Meant::One(*one),
+            [(object, sub)] => Meant::One(EntryId { index: object.index, sub: *sub }),
             _ => Meant::Several(found),
         }
-    }
-
-    /// How several entries that a name leads to are told apart.
-    fn namesakes(&self, name: &str, ids: &[EntryId]) -> Vec<Namesake> {
-        let namesake = |id: &EntryId| {
-            let (_, object) = self.objects.iter().find(|(_, object)| object.index == id.index)?;
-            let member = object.entry(id.sub).filter(|_| !object.is_called(name) && object.is_structured());
-            let (label, number, index) = match member {
-                Some(entry) => {
-                    (format!("{}.{}", object.label(), entry.label()), id.to_string(), id.notation())
-                }
-                None => (object.label().to_owned(), id.index.to_string(), id.index.notation()),
-            };
-            Some(Namesake { number, way: if label == name { index } else { label } })
-        };
-        ids.iter().filter_map(namesake).collect()
     }
 
     /// All names, ascending.
@@ -268,14 +256,34 @@ pub(crate) struct Namesake {
     pub way: String,
 }
 
+impl Namesake {
+    /// So many are listed in a message.
+    const LISTED: usize = 4;
+
+    /// How an entry is told apart from all others that a name stands for.
+    fn of(name: &str, object: &Object, sub: SubIndex) -> Self {
+        let member = object.entry(sub).filter(|_| !object.is_called(name) && object.is_structured());
+        let id = EntryId { index: object.index, sub };
+        let (label, number, index) = match member {
+            Some(entry) => (format!("{}.{}", object.label(), entry.label()), id.to_string(), id.notation()),
+            None => (object.label().to_owned(), id.index.to_string(), id.index.notation()),
+        };
+        Self { number, way: if label == name { index } else { label } }
+    }
+}
+
 /// Reports a reference by a name that several things have.
 pub(crate) fn ambiguous(name: &str, of: &[Namesake], place: Span) -> Diagnostic {
-    let list = |words: Vec<String>, word: &str| match words.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} {word} {last}", rest.join(", ")),
-        _ => words.concat(),
+    let list = |word: fn(&Namesake) -> String, between: &str, more: &str| {
+        let words: Vec<String> = of.iter().take(Namesake::LISTED).map(word).collect();
+        match words.split_last() {
+            _ if of.len() > words.len() => format!("{}{more}", words.join(", ")),
+            Some((last, rest)) if !rest.is_empty() => format!("{} {between} {last}", rest.join(", ")),
+            _ => words.concat(),
+        }
     };
-    let numbers = list(of.iter().map(|one| one.number.clone()).collect(), "and");
-    let ways = list(of.iter().map(|one| format!("`{}`", shorten(&one.way))).collect(), "or");
+    let numbers = list(|one| one.number.clone(), "and", " and others");
+    let ways = list(|one| format!("`{}`", shorten(&one.way)), "or", " or another");
     Diagnostic::new(
         rule_codes::DUPLICATE_NAME,
         place,
@@ -305,22 +313,18 @@ fn find(
         }
         return None;
     }
-    let found =
-        devices.iter().map(|names| (names, names.get(text))).find(|(_, meant)| *meant != Meant::Nothing);
-    let found = match found {
-        Some((names, Meant::Several(ids))) => {
-            let namesakes = names.namesakes(text, &ids);
-            let ways: BTreeSet<&str> = namesakes.iter().map(|one| one.way.as_str()).collect();
-            // Where nothing tells them apart, that is reported at their names.
-            if namesakes.iter().any(|one| !lexical::looks_like_index(&one.way)) && ways.len() == ids.len() {
-                diagnostics.push(ambiguous(text, &namesakes, reference.span));
-                return None;
-            }
-            ids.first().copied()
+    let meant = devices.iter().map(|names| names.get(text)).find(|meant| meant.first().is_some());
+    if let Some(Meant::Several(several)) = &meant {
+        let namesakes: Vec<Namesake> =
+            several.iter().map(|(object, sub)| Namesake::of(text, object, *sub)).collect();
+        let ways: BTreeSet<&str> = namesakes.iter().map(|one| one.way.as_str()).collect();
+        // Where nothing tells them apart, that is reported at their names.
+        if namesakes.iter().any(|one| !lexical::looks_like_index(&one.way)) && ways.len() == namesakes.len() {
+            diagnostics.push(ambiguous(text, &namesakes, reference.span));
+            return None;
         }
-        Some((_, meant)) => meant.one(),
-        None => None,
-    };
+    }
+    let found = meant.and_then(|meant| meant.first());
     if found.is_none() && !broken.has_name(text) && diagnostics.is_new(codes::UNKNOWN_ENTRY, reference.span) {
         let message = format!("there is no entry named `{}`", shorten(text));
         let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, message);
@@ -453,7 +457,10 @@ impl<'a> Lookup<'a> {
         let names = self.names.get_or_init(|| Names::new(self.dictionary.objects.values()));
         match names.get(text) {
             Meant::One(id) => return Ok(id),
-            Meant::Several(ids) => return Err(NotFound::Several(names.namesakes(text, &ids))),
+            Meant::Several(found) => {
+                let namesakes = found.into_iter().map(|(object, sub)| Namesake::of(text, object, sub));
+                return Err(NotFound::Several(namesakes.collect()));
+            }
             Meant::Nothing => {}
         }
         if let Some(HexReference::Ambiguous { decimal, hexadecimal }) = by_index {
@@ -490,12 +497,12 @@ impl<'a> Lookup<'a> {
         alike.next().is_none().then_some(only.index)
     }
 
-    /// The objects of a name that several have; empty for any other.
+    /// The objects of a name that several have, as many as [`ambiguous`] wants; empty for any other.
     pub(crate) fn objects(&self, text: &str) -> Vec<Namesake> {
         let names = self.names.get_or_init(|| Names::new(self.dictionary.objects.values()));
-        let named = names.named(text).map(|object| EntryId { index: object.index, sub: SubIndex(0) });
-        let named: Vec<EntryId> = named.collect();
-        if named.len() > 1 { names.namesakes(text, &named) } else { Vec::new() }
+        let named = names.named(text).take(Namesake::LISTED + 1);
+        let named: Vec<Namesake> = named.map(|object| Namesake::of(text, object, SubIndex(0))).collect();
+        if named.len() > 1 { named } else { Vec::new() }
     }
 
     fn alike(&self, names: &Names<'a>) -> &BTreeMap<String, Option<EntryId>> {

@@ -252,6 +252,14 @@ pub const WRONG: &[Pattern] = &[
             "",
         )
     }),
+    pattern("constraints by a name that all objects have", |n| {
+        let constraints = each(n, |at| format!("  c{at}: {{require: \"same <= {at}\"}}\n"));
+        let object = |at: usize| {
+            let index = index(at);
+            format!("  0x{index:X}: {{name: same, identifier: s{at}, type: unsigned8, access: rw}}\n")
+        };
+        spec(&format!("constraints:\n{constraints}"), &each(n, object))
+    }),
     pattern("constraints about nothing", |n| {
         let list = each(n, |at| format!("  c{at}: {{require: \"0x{:X} < e{at}:0x2000\"}}\n", 0x6000 + at));
         spec(&format!("constraints:\n{list}"), &objects(10, |_| String::new()))

@@ -17,6 +17,7 @@ mod machines;
 mod manual;
 #[path = "../../shared/markdown.rs"]
 mod markdown;
+mod modules;
 mod numbers;
 mod prose;
 mod read_back;

@@ -20,8 +20,8 @@ use firmware_glue::frame::Frame;
 pub use self::access::{AccessError, Client};
 pub use self::link::{OpenError, SlcanBus};
 pub use self::port::{Manner, Port};
-pub use self::restore::{involved, kept, plan, value};
-pub use self::scan::{Answered, Contradiction, Identity, recognize, scan};
+pub use self::restore::{involved, judged, kept, plan, value};
+pub use self::scan::{Answer, Contradiction, Heard, Identity, recognize, scan};
 pub use self::serial::Serial;
 
 /// Where frames go and come from, and what time it is there.

@@ -40,6 +40,16 @@ pub fn involved(system: &System, device: &Dictionary, written: &BTreeSet<EntryId
     found
 }
 
+/// The entries that rules look at beside those that are to be written: the [involved] ones, and with a communication object all
+/// others, as the rules about PDOs, COB-IDs and times compare these.
+pub fn judged(system: &System, device: &Dictionary, written: &BTreeSet<EntryId>) -> BTreeSet<EntryId> {
+    let mut judged = involved(system, device, written);
+    if written.iter().any(|id| id.index.is_communication_profile()) {
+        judged.extend(kept(device).filter(|id| id.index.is_communication_profile()));
+    }
+    judged
+}
+
 /// The entries that are a node's parameters: they can be read and written, hold a value of their own, and writing them does nothing but
 /// change it.
 pub fn kept(device: &Dictionary) -> impl Iterator<Item = EntryId> {

@@ -1,6 +1,6 @@
 //! Who is on the bus.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 use firmware_glue::frame::{CanId, Frame};
@@ -8,14 +8,28 @@ use od_spec::model::{Dictionary, EntryId, Index, SubIndex, Value};
 
 use super::{AccessError, Bus, BusError, Client};
 
-/// A node that answered.
+/// A node-ID at which somebody was heard.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Answered {
-    /// Its node-ID.
+pub struct Heard {
+    /// The node-ID.
     pub node: u8,
-    /// What it says of itself.
-    pub identity: Identity,
+    /// The state of the last boot-up message or heartbeat, where one came.
+    pub state: Option<u8>,
+    /// What came to a request.
+    pub answer: Answer,
+}
+
+/// What a node-ID answers by SDO.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Answer {
+    /// Nothing: the node is stopped, or has no SDO server.
+    None,
+    /// What the node says of itself.
+    Of(Identity),
+    /// Two answers to one request: two devices have this node-ID.
+    Two,
 }
 
 /// Device type (1000h), identity (1018h) and name (1008h); what a node does not have or does not tell is open.
@@ -128,17 +142,27 @@ pub fn recognize<B: Bus>(
     Ok(None)
 }
 
-/// Asks all 127 node-IDs, and those that answer for their identity.
+/// What was heard at a node-ID.
+#[derive(Debug, Default)]
+struct Noted {
+    state: Option<u8>,
+    answers: usize,
+}
+
+/// Asks all 127 node-IDs, listens to boot-up messages and heartbeats meanwhile, and asks those that answer for their identity.
 ///
 /// # Errors
 /// [`BusError`]: nothing goes over the bus.
-pub fn scan<B: Bus>(client: &mut Client<B>, within: Duration) -> Result<Vec<Answered>, BusError> {
-    let mut answered: BTreeSet<u8> = BTreeSet::new();
+pub fn scan<B: Bus>(client: &mut Client<B>, within: Duration) -> Result<Vec<Heard>, BusError> {
+    let mut noted: BTreeMap<u8, Noted> = BTreeMap::new();
     let mut note = |frame: &Frame| {
-        let node = frame.id().get().checked_sub(0x580).and_then(|node| u8::try_from(node).ok());
-        let is_about = frame.bytes().is_some_and(|bytes| bytes.get(1..4) == Some(&[0x00, 0x10, 0x00]));
-        if let Some(node @ 1..=127) = node.filter(|_| is_about) {
-            answered.insert(node);
+        let id = frame.id().get();
+        let Ok(node @ 1..=127) = u8::try_from(id & 0x7F) else { return };
+        match (id & 0x780, frame.bytes()) {
+            (0x580, Some([_, 0x00, 0x10, 0x00, ..])) => noted.entry(node).or_default().answers += 1,
+            // The highest bit belongs to node guarding.
+            (0x700, Some([state])) => noted.entry(node).or_default().state = Some(state & 0x7F),
+            _ => {}
         }
     };
     for node in 1..=127_u16 {
@@ -157,23 +181,32 @@ pub fn scan<B: Bus>(client: &mut Client<B>, within: Duration) -> Result<Vec<Answ
         }
     }
     let mut nodes = Vec::new();
-    for node in answered {
-        let mut bytes = |id| match client.read(node, id) {
-            Ok(bytes) => Ok(Some(bytes)),
-            Err(AccessError::Bus(error)) => Err(error),
-            Err(_) => Ok(None),
+    for (node, Noted { state, answers }) in noted {
+        let answer = match answers {
+            0 => Answer::None,
+            1 => Answer::Of(identity(client, node)?),
+            _ => Answer::Two,
         };
-        let name = bytes(NAME)?.map(|name| String::from_utf8_lossy(&name).trim_end_matches('\0').to_owned());
-        let mut read = |id| Ok(bytes(id)?.and_then(|bytes| Some(u32::from_le_bytes(bytes.try_into().ok()?))));
-        let identity = Identity {
-            device_type: read(DEVICE_TYPE)?,
-            vendor: read(VENDOR)?,
-            product: read(PRODUCT)?,
-            revision: read(id(0x1018, 3))?,
-            serial: read(id(0x1018, 4))?,
-            name,
-        };
-        nodes.push(Answered { node, identity });
+        nodes.push(Heard { node, state, answer });
     }
     Ok(nodes)
+}
+
+/// What a node says of itself.
+fn identity<B: Bus>(client: &mut Client<B>, node: u8) -> Result<Identity, BusError> {
+    let mut bytes = |id| match client.read(node, id) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(AccessError::Bus(error)) => Err(error),
+        Err(_) => Ok(None),
+    };
+    let name = bytes(NAME)?.map(|name| String::from_utf8_lossy(&name).trim_end_matches('\0').to_owned());
+    let mut read = |id| Ok(bytes(id)?.and_then(|bytes| Some(u32::from_le_bytes(bytes.try_into().ok()?))));
+    Ok(Identity {
+        device_type: read(DEVICE_TYPE)?,
+        vendor: read(VENDOR)?,
+        product: read(PRODUCT)?,
+        revision: read(id(0x1018, 3))?,
+        serial: read(id(0x1018, 4))?,
+        name,
+    })
 }

@@ -125,10 +125,11 @@ fn a_reset_brings_a_boot_up_message() {
 fn a_scan_finds_who_is_there() {
     with_lamps(|system, client| {
         let found = scan(client, Duration::from_millis(100)).unwrap();
-        assert_eq!(found.iter().map(|one| one.node).collect::<Vec<_>>(), [5, 6]);
+        assert_eq!(found.iter().map(|one| (one.node, one.state)).collect::<Vec<_>>(), [(5, None), (6, None)]);
+        let Answer::Of(identity) = &found[0].answer else { panic!("{found:?}") };
         let device = Identity::of(&system.devices[0]);
-        assert_eq!(found[0].identity.device_type, device.device_type);
-        assert!(found[0].identity.fits(&device));
+        assert_eq!(identity.device_type, device.device_type);
+        assert!(identity.fits(&device));
         let maker = Identity { vendor: Some(7), product: Some(1), ..Identity::default() };
         let own =
             Identity { device_type: Some(0), revision: Some(3), name: Some("B".to_owned()), ..maker.clone() };
@@ -136,6 +137,62 @@ fn a_scan_finds_who_is_there() {
         assert!(!Identity { product: Some(2), ..own.clone() }.fits(&maker));
         assert!(!own.fits(&Identity { name: Some("A".to_owned()), ..maker }));
         assert!(!own.fits(&Identity::default()), "nothing is known of the device");
+    });
+}
+
+#[test]
+fn a_scan_hears_who_does_not_answer() {
+    with_lamps(|_, client| {
+        let heartbeat = EntryId { index: Index(0x1017), sub: SubIndex(0) };
+        for node in [5, 6] {
+            client.write(node, heartbeat, &[50, 0]).unwrap();
+        }
+        client.command(1, 5).unwrap();
+        client.command(2, 6).unwrap();
+        let found = scan(client, Duration::from_millis(100)).unwrap();
+        let told: Vec<_> =
+            found.iter().map(|one| (one.node, one.state, matches!(one.answer, Answer::Of(_)))).collect();
+        assert_eq!(told, [(5, Some(5), true), (6, Some(4), false)]);
+        assert_eq!(found[1].answer, Answer::None);
+    });
+}
+
+/// A bus on which a second device answers with a node-ID, a little later and otherwise.
+struct Shared<'t>(Virtual<'t>);
+
+impl Bus for Shared<'_> {
+    fn send(&mut self, frame: &Frame) -> Result<(), BusError> {
+        self.0.send(frame)?;
+        if frame.id().get() == 0x605 {
+            let twin = self.0.heard.back().copied().and_then(|frame| {
+                let mut bytes: [u8; 8] = frame.bytes()?.try_into().ok()?;
+                bytes[4] ^= 0x55;
+                Some(Frame::full(frame.id(), bytes))
+            });
+            self.0.heard.extend(twin);
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
+        self.0.receive(within)
+    }
+
+    fn now(&self) -> u64 {
+        self.0.now()
+    }
+}
+
+#[test]
+fn two_devices_with_one_node_id_are_told() {
+    with_lamps(|_, client| {
+        let Virtual { bus, .. } = client.bus();
+        let bus = std::mem::replace(bus, runtime::Bus::new(Vec::new()));
+        let both = Shared(Virtual { bus, heard: VecDeque::new(), now: 0 });
+        let found =
+            scan(&mut Client::new(both, Duration::from_millis(500)), Duration::from_millis(100)).unwrap();
+        let told: Vec<_> = found.iter().map(|one| (one.node, one.answer == Answer::Two)).collect();
+        assert_eq!(told, [(5, true), (6, false)]);
     });
 }
 

@@ -191,7 +191,23 @@ impl NodeHandler<LiveDictionary<'_>> for Host {
                 let _ = dictionary.restore(*storage, layout, &stored.bytes);
             }
         }
+        tell_commands(dictionary);
         self.has_restarted = true;
+    }
+}
+
+/// Says in 1010h and 1011h that parameters are stored, and defaults restored, on command (CiA 301 7.5.2.13, 7.5.2.14), where
+/// the device does not say what it does.
+fn tell_commands(dictionary: &mut LiveDictionary<'_>) {
+    const ON_COMMAND: [u8; 4] = [1, 0, 0, 0];
+    let commands = [0x1010, 0x1011].into_iter().flat_map(|index| (1..=127).map(move |sub| (index, sub)));
+    for (index, sub) in commands {
+        if let Ok(entry) = dictionary.find(index, sub)
+            && dictionary.value(entry).is_some_and(|value| value == [0; 4])
+        {
+            // A constant says itself what the device does.
+            let _ = dictionary.hold(entry, &ON_COMMAND);
+        }
     }
 }
 

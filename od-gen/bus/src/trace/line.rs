@@ -1,4 +1,4 @@
-//! Lines of recorded traces: what `candump` prints and logs, and SLCAN.
+//! Lines that say all of a frame themselves: what `candump` prints and logs, and SLCAN.
 
 use firmware_glue::frame::{CanId, Frame};
 
@@ -45,7 +45,7 @@ pub struct BadLine {
 /// Bit 29 of an identifier of Linux: an error that the interface has seen.
 const ERROR: u32 = 1 << 29;
 
-/// Reads a line, without its end:
+/// Reads a line of a trace that has no lines about itself, without its end:
 ///
 /// - `(1700000000.123456) can0 181#0102`, the log of `candump -L`; `181#R4` is a remote frame,
 /// - `can0  181   [2]  01 02`, with or without a time before and a text behind: what `candump` prints,
@@ -53,7 +53,7 @@ const ERROR: u32 = 1 << 29;
 ///
 /// # Errors
 /// [`BadLine`]: it is none of these.
-pub fn read(line: &str) -> Result<Line<'_>, BadLine> {
+pub(super) fn read(line: &str) -> Result<Line<'_>, BadLine> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let Some(first) = words.first() else { return Ok(Line::Empty) };
     if first.starts_with(['#', ';']) {
@@ -75,7 +75,8 @@ pub fn read(line: &str) -> Result<Line<'_>, BadLine> {
     Err(bad(
         line,
         first,
-        "a frame as `candump` logs it (`(1.5) can0 181#0102`) or prints it, or a line of SLCAN",
+        "a frame as `candump` logs it (`(1.5) can0 181#0102`) or prints it, or a line of SLCAN; or in front of all \
+         frames the first lines of a `.trc` or `.asc` file",
     ))
 }
 
@@ -83,13 +84,13 @@ fn has_time(line: &str) -> bool {
     slcan::frame(line).is_ok_and(|(_, time)| time.is_some())
 }
 
-fn bad(line: &str, word: &str, expected: impl Into<String>) -> BadLine {
+pub(super) fn bad(line: &str, word: &str, expected: impl Into<String>) -> BadLine {
     let start = (word.as_ptr() as usize).saturating_sub(line.as_ptr() as usize).min(line.len());
     BadLine { at: start..(start + word.len()).min(line.len()), expected: expected.into() }
 }
 
 /// Digits as a number; no more than fit.
-fn hexadecimal(digits: &str) -> Option<u32> {
+pub(super) fn hexadecimal(digits: &str) -> Option<u32> {
     let is_all = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
     is_all.then(|| u32::from_str_radix(digits, 16).ok()).flatten()
 }
@@ -108,7 +109,8 @@ fn identifier(line: &str, word: &str) -> Result<Identifier, BadLine> {
     }
 }
 
-enum Identifier {
+/// The identifier of a frame.
+pub(super) enum Identifier {
     Standard(CanId),
     Extended(u32),
     Error,
@@ -123,7 +125,8 @@ impl Identifier {
         }
     }
 
-    fn with(&self, content: &Content) -> Option<What> {
+    /// What was on the bus, with this content; `None` where a frame has no room for it.
+    pub(super) fn with(&self, content: &Content) -> Option<What> {
         let length = match content {
             Content::Data(bytes) => u8::try_from(bytes.len()).ok()?,
             Content::Remote(length) => *length,
@@ -141,7 +144,8 @@ impl Identifier {
     }
 }
 
-enum Content {
+/// What a frame carries.
+pub(super) enum Content {
     Data(Vec<u8>),
     Remote(u8),
 }
@@ -198,19 +202,7 @@ fn printed<'l>(line: &str, words: &[&'l str], at: usize) -> Result<Seen<'l>, Bad
     let content = if behind.first().is_some_and(|word| *word == "remote") {
         Content::Remote(u8::try_from(length).unwrap_or(u8::MAX))
     } else {
-        let mut bytes = Vec::new();
-        for at in 0..length {
-            let word = behind.get(at).copied();
-            let byte = word.filter(|word| word.len() == 2).and_then(hexadecimal);
-            match (byte.and_then(|byte| u8::try_from(byte).ok()), word) {
-                (Some(byte), _) => bytes.push(byte),
-                (None, Some(word)) => return Err(bad(line, word, "a byte of two hexadecimal digits")),
-                (None, None) => {
-                    let end = &line[line.trim_end().len()..];
-                    return Err(bad(line, end, format!("{length} bytes, as the length says")));
-                }
-            }
-        }
+        let bytes = bytes(line, behind, length, two_digits)?;
         // `candump -a` shows the bytes as characters, too.
         if let Some(more) =
             behind.get(length).filter(|word| !word.starts_with('\'') && **word != "ERRORFRAME")
@@ -221,6 +213,31 @@ fn printed<'l>(line: &str, words: &[&'l str], at: usize) -> Result<Seen<'l>, Bad
     };
     let what = id.with(&content).ok_or_else(|| bad(line, words[at], "a length from `[0]` to `[8]`"))?;
     Ok(Seen { head, what })
+}
+
+/// The first words as so many bytes.
+pub(super) fn bytes(
+    line: &str,
+    words: &[&str],
+    length: usize,
+    read: impl Fn(&str) -> Result<u8, &'static str>,
+) -> Result<Vec<u8>, BadLine> {
+    let byte = |at: usize| match words.get(at) {
+        Some(word) => read(word).map_err(|expected| bad(line, word, expected)),
+        None => Err(bad(line, end(line), format!("{length} bytes, as the length says"))),
+    };
+    (0..length).map(byte).collect()
+}
+
+/// A byte as almost all traces have it.
+pub(super) fn two_digits(word: &str) -> Result<u8, &'static str> {
+    let byte = hexadecimal(word).filter(|_| word.len() == 2).and_then(|byte| u8::try_from(byte).ok());
+    byte.ok_or("a byte of two hexadecimal digits")
+}
+
+/// The place behind the last word of a line.
+pub(super) fn end(line: &str) -> &str {
+    &line[line.trim_end().len()..]
 }
 
 #[cfg(test)]

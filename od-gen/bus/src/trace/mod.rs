@@ -3,21 +3,26 @@
 //! The identifiers and mappings of PDOs are the defaults of the devices, and follow what clients write in the trace. What
 //! belongs to no node that is known is told as such, and never left out.
 
+mod asc;
 mod line;
+mod lss;
 mod node;
 mod pdo;
+mod reader;
 mod sdo;
 mod services;
 mod transfer;
+mod trc;
 
 use std::fmt::Write as _;
 
 use firmware_glue::frame::Frame;
 use od_spec::model::{Direction, EntryId};
 
-pub use self::line::{BadLine, Line, Seen, What, read};
+pub use self::line::{BadLine, Line, Seen, What};
 pub use self::node::Node;
 use self::node::{SdoSide, count, hexadecimal};
+pub use self::reader::Reader;
 pub(crate) use self::services::state;
 use crate::slcan::CanFrame;
 
@@ -146,8 +151,8 @@ impl<'a> Decoder<'a> {
     fn of_all(&mut self, id: u16, bytes: Option<&[u8]>) -> Option<Told> {
         let (service, text) = match (id, bytes) {
             (0x000, Some(bytes)) => return Some(self.nmt(bytes)),
-            (0x7E5, Some(bytes)) => (Service::Lss, format!("LSS master  {}", services::lss(bytes))),
-            (0x7E4, Some(bytes)) => (Service::Lss, format!("LSS slave  {}", services::lss(bytes))),
+            (0x7E5, Some(bytes)) => (Service::Lss, format!("LSS master  {}", lss::request(bytes))),
+            (0x7E4, Some(bytes)) => (Service::Lss, format!("LSS slave  {}", lss::answer(bytes))),
             (_, bytes) if self.is_shared(id, 0x1005, 0x080) => {
                 let text = match bytes {
                     Some([]) => "SYNC".to_owned(),

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use od_formats::concise::words;
-use od_spec::model::{Dictionary, EntryId, Index, Mapped, Pdo, StateMachine, SubIndex, System, Value};
+use od_spec::model::{
+    DataType, Dictionary, EntryId, Index, Mapped, Pdo, StateMachine, SubIndex, System, Value,
+};
 
 use super::transfer::Transfer;
 
@@ -143,8 +145,7 @@ impl<'a> Node<'a> {
         let object = self.device.objects.get(&id.index);
         let found = object.and_then(|object| Some((object, object.entry(id.sub)?)));
         let Some((object, entry)) = found else { return hexadecimal(bytes) };
-        let bytes_of_value = if entry.data_type.is_string() { trimmed(bytes) } else { bytes };
-        let Some(value) = Value::from_bytes(entry.data_type, bytes_of_value) else {
+        let Some(value) = Value::from_bytes(entry.data_type, unpadded(entry.data_type, bytes)) else {
             return format!("{} (no value of its type, {})", hexadecimal(bytes), entry.data_type.name());
         };
         let text = match &value {
@@ -177,10 +178,15 @@ impl<'a> Node<'a> {
     }
 }
 
-/// Bytes without the zeros that pad a text.
-fn trimmed(bytes: &[u8]) -> &[u8] {
-    let end = bytes.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
-    bytes.get(..end).unwrap_or(bytes)
+/// Bytes without the zeros that pad a text. Those of an OCTET_STRING belong to it.
+fn unpadded(data_type: DataType, bytes: &[u8]) -> &[u8] {
+    let width = match data_type {
+        DataType::VisibleString => 1,
+        DataType::UnicodeString => 2,
+        _ => return bytes,
+    };
+    let padding = bytes.rchunks(width).take_while(|character| character.iter().all(|byte| *byte == 0));
+    bytes.get(..bytes.len() - padding.map(<[u8]>::len).sum::<usize>()).unwrap_or(bytes)
 }
 
 /// `01 A2 FF`.
@@ -194,4 +200,68 @@ pub(super) fn hexadecimal(bytes: &[u8]) -> String {
 /// `1 byte`, `2 bytes`.
 pub(super) fn count(bytes: usize) -> String {
     if bytes == 1 { "1 byte".to_owned() } else { format!("{bytes} bytes") }
+}
+
+#[cfg(test)]
+mod tests {
+    use firmware_glue::frame::{CanId, Frame};
+    use od_spec::source::SourceMap;
+    use od_spec::{NoFiles, compile};
+
+    use super::*;
+    use crate::trace::Decoder;
+
+    const LAMP: &str = "
+od-spec: 1
+title: Lamp
+uses: [cia301]
+devices:
+  lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer, store parameters, restore defaults]}
+objects:
+  0x2000: {name: key, type: octet-string, capacity: 8, access: rw}
+  0x2001: {name: label, type: visible-string, capacity: 8, access: rw}
+  0x2002: {name: letters, type: unicode-string, capacity: 8, access: rw}
+";
+
+    /// What a decoder of the lamp, as node 5, tells of some frames.
+    fn told(frames: &[(u16, &[u8])]) -> Vec<String> {
+        let mut sources = SourceMap::new();
+        let root = sources.add("lamp.od.yaml", LAMP);
+        let compiled = compile(&mut sources, root, &mut NoFiles);
+        let system = compiled.system.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics));
+        let mut decoder = Decoder::new(vec![Node::new(5, &system, &system.devices[0])]);
+        let told = frames.iter().map(|(id, bytes)| {
+            let frame = Frame::data(CanId::new(*id).unwrap(), bytes).unwrap();
+            decoder.frame(&frame).rsplit("  ").next().unwrap().to_owned()
+        });
+        told.collect()
+    }
+
+    #[test]
+    fn zeros_pad_a_text_and_belong_to_octets() {
+        assert_eq!(
+            told(&[
+                (0x585, &[0x43, 0x00, 0x20, 0, 1, 2, 0, 0]),
+                (0x585, &[0x43, 0x01, 0x20, 0, b'O', b'K', 0, 0]),
+                (0x585, &[0x43, 0x02, 0x20, 0, b'A', 0, 0, 0]),
+            ]),
+            ["2000h key = 01020000", "2001h label = \"OK\"", "2002h letters = \"A\""]
+        );
+    }
+
+    #[test]
+    fn commands_of_1010h_and_1011h_are_told_as_such() {
+        assert_eq!(
+            told(&[
+                (0x605, &[0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']),
+                (0x605, &[0x23, 0x11, 0x10, 1, b'l', b'o', b'a', b'd']),
+                (0x605, &[0x23, 0x11, 0x10, 1, 1, 0, 0, 0]),
+            ]),
+            [
+                "write 1010h.1 Store parameters: Save all parameters = \"save\"",
+                "write 1011h.1 Restore default parameters: Restore all default parameters = \"load\"",
+                "write 1011h.1 Restore default parameters: Restore all default parameters = 0x00000001 (can restore)",
+            ]
+        );
+    }
 }

@@ -71,7 +71,7 @@ fn request(node: &mut Node<'_>, transfer: &mut Transfer, bytes: [u8; 8]) -> Stri
         1 if bytes[0] & 2 == 2 => {
             begin(transfer, Phase::Expedited);
             transfer.data = expedited(node, &bytes).to_vec();
-            format!("write {entry} = {}", node.value(id, &transfer.data))
+            format!("write {entry} = {}", written(node, id, &transfer.data))
         }
         1 => {
             begin(transfer, Phase::Download(Last::No));
@@ -176,6 +176,14 @@ fn answer(node: &mut Node<'_>, transfer: &mut Transfer, bytes: [u8; 8]) -> Strin
         6 if bytes[0] & 1 == 0 => format!("{entry} comes in blocks{}", size(bytes, bytes[0] & 2 == 2)),
         6 => block_end(node, transfer, bytes),
         _ => format!("unknown command {:02X}h", bytes[0]),
+    }
+}
+
+/// A value that a client writes. What is written to 1010h and 1011h is a command.
+fn written(node: &Node<'_>, id: EntryId, bytes: &[u8]) -> String {
+    match (id.index.0, bytes) {
+        (0x1010, b"save") | (0x1011, b"load") => format!("\"{}\"", String::from_utf8_lossy(bytes)),
+        _ => node.value(id, bytes),
     }
 }
 

@@ -117,46 +117,6 @@ fn class(code: u16) -> &'static str {
     }
 }
 
-/// LSS (CiA 305): what the master (7E5h) or a slave (7E4h) says.
-pub(super) fn lss(bytes: &[u8]) -> String {
-    let [command, data @ ..] = bytes else { return "no bytes where LSS has 8".to_owned() };
-    let number = data.first_chunk().map(|bytes| u32::from_le_bytes(*bytes));
-    let hex = |what: &str| number.map_or_else(|| what.to_owned(), |number| format!("{what} 0x{number:08X}"));
-    let first = data.first().copied().unwrap_or_default();
-    match command {
-        4 => match first {
-            0 => "switch all to waiting".to_owned(),
-            1 => "switch all to configuration".to_owned(),
-            other => format!("switch all to the unknown mode {other}"),
-        },
-        17 => format!("node-ID {first}, or the result of setting it"),
-        19 => format!("bit timing: table {first}, entry {}", data.get(1).copied().unwrap_or_default()),
-        21 => "activate bit timing".to_owned(),
-        23 => "store configuration, or its result".to_owned(),
-        64 => hex("switch one: vendor-ID"),
-        65 => hex("switch one: product code"),
-        66 => hex("switch one: revision number"),
-        67 => hex("switch one: serial number"),
-        68 => "switched to configuration".to_owned(),
-        70 => hex("identify: vendor-ID"),
-        71 => hex("identify: product code"),
-        72 => hex("identify: lowest revision number"),
-        73 => hex("identify: highest revision number"),
-        74 => hex("identify: lowest serial number"),
-        75 => hex("identify: highest serial number"),
-        76 => "identify a slave that is not configured".to_owned(),
-        79 => "identified".to_owned(),
-        80 => "identified, not configured".to_owned(),
-        81 => hex("Fastscan: number"),
-        90 => hex("vendor-ID"),
-        91 => hex("product code"),
-        92 => hex("revision number"),
-        93 => hex("serial number"),
-        94 => "node-ID asked for, or told".to_owned(),
-        other => format!("unknown command {other}: {}", hexadecimal(data)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -140,7 +140,9 @@ impl<'o, 'a> Rules<'o, 'a> {
             }
             // What lies nowhere is refused, until the application has an extension for it.
             let lies_nowhere = slots.iter().any(|slot| matches!(slot.memory, Memory::Stack));
-            if !rows.is_empty() || lies_nowhere {
+            // The flags by which a TPDO is requested are those of an extension.
+            let requests_tpdos = object.object.editor.as_ref().is_some_and(|notes| notes.requests_tpdos);
+            if !rows.is_empty() || lies_nowhere || requests_tpdos {
                 rules.objects.push(RuledObject { object, rules: rows });
             }
         }

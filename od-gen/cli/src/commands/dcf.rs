@@ -117,8 +117,9 @@ fn dcf(args: &DcfArgs, directory: &Path, report: &Report) -> Result<String, u8> 
     let mut loader = report.loader();
     let mut compiled = od_gen::source::compile_file(&spec, &mut sources, &mut loader);
     if !args.modules.is_empty() && compiled.system.is_some() {
-        compiled =
-            plugged_in(&args.modules, &spec, &compiled, &mut sources).map_err(|refusal| refuse(*refusal))?;
+        let key = args.device.as_deref();
+        compiled = plugged_in(&args.modules, &spec, key, &compiled, &mut sources)
+            .map_err(|refusal| refuse(*refusal))?;
     }
     if let Some(line) = condense(&spec, &mut compiled) {
         report.note(&line);

@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use od_bus::trace::{BadLine, Decoder, Line, Node, Seen, read};
+use od_bus::trace::{BadLine, Decoder, Line, Node, Reader, Seen};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::SourceMap;
 use od_spec::visible::printable;
@@ -21,7 +21,7 @@ pub(crate) struct DecodeArgs {
     #[command(flatten)]
     pub nodes: NodesArgs,
 
-    /// The trace: what `candump` prints or logs, or lines of SLCAN; can be given several times [default: standard input]
+    /// The trace: what `candump` prints or logs, lines of SLCAN, `.trc` of PCAN-View or `.asc` of CANalyzer; can be given several times [default: standard input]
     #[arg(long, value_name = "FILE")]
     pub trace: Vec<PathBuf>,
 
@@ -62,7 +62,7 @@ fn trace(name: &str, mut from: impl BufRead, decoder: &mut Decoder<'_>, report: 
     let (mut number, mut bad) = (0_usize, 0_usize);
     let mut out = std::io::stdout().lock();
     let mut bytes = Vec::new();
-    let mut lines = Lines::default();
+    let (mut lines, mut reader) = (Lines::default(), Reader::default());
     loop {
         let length = match lines.next(&mut from, &mut bytes) {
             Ok(None) => break,
@@ -75,7 +75,7 @@ fn trace(name: &str, mut from: impl BufRead, decoder: &mut Decoder<'_>, report: 
         number += 1;
         let line = &*String::from_utf8_lossy(&bytes);
         let read = match length {
-            Length::Whole => read(line),
+            Length::Whole => reader.read(line),
             Length::Cut => Err(BadLine {
                 at: 0..line.len(),
                 expected: format!("a line of at most {LONGEST_LINE} bytes"),
@@ -174,7 +174,7 @@ fn complain(name: &str, number: usize, line: &str, fault: &BadLine, report: &Rep
     let mut diagnostics = Diagnostics::new();
     diagnostics.push(
         Diagnostic::new(codes::BAD_TRACE_LINE, span, format!("expected {}", fault.expected))
-            .help("take the line out, or write it as `candump` does: `(1.5) can0 181#0102`"),
+            .help("take the line out, or give the trace as `candump`, PCAN-View (`.trc`) or CANalyzer (`.asc`) write it"),
     );
     report.show(&diagnostics, &sources);
 }

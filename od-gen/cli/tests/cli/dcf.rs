@@ -482,14 +482,41 @@ fn modules_are_plugged_in_by_number_order_code_or_name() {
             refused("16 inputs", "coupler.eds"),
             refused("1", "plain.eds"),
             refused("1", "coupler-5.dcf"),
+            refused(&["1"; 255].join(","), "coupler.eds"),
         ],
         [
             "error[EDS606]: there is no module `4` (the modules are 1 (8 inputs, DI8), 2 (16 inputs, DI16), 3 (16 inputs, DI16/2))",
             "error[EDS606]: `16 inputs` is the name of several modules: 2, 3 (name one of them by its number)",
             "error[EDS606]: plain.eds describes no modules (take the EDS of a bus coupler, which describes them under `[SupportedModules]`)",
             "error[EDS606]: coupler-5.dcf has the objects of modules already (take the EDS of the bus coupler alone)",
+            "error[EDS606]: 255 modules are named, and 1027h has entries for 254 (name no more than that)",
         ]
     );
+}
+
+#[test]
+fn modules_are_plugged_into_the_specification_of_a_coupler() {
+    let scratch = Scratch::new("modules-of-specification");
+    scratch.file("coupler.eds", COUPLER);
+    let run = |arguments: &[&str]| {
+        let output = odgen(&scratch.0, arguments);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+    };
+    run(&["import", "coupler.eds", "--out", "imported"]);
+    let dcf = |file: &str, out: &str| {
+        run(&["dcf", file, "--node", "5", "--modules", "1,2,1", "--out", out]);
+        fs::read_to_string(scratch.0.join(out)).unwrap().replace("\r\n", "\n")
+    };
+    let of_file = dcf("coupler.eds", "file.dcf");
+    let of_import = dcf("imported/coupler.od.yaml", "import.dcf");
+    let objects = |dcf: &str| dcf.split("[MandatoryObjects]").nth(1).unwrap().to_owned();
+    assert!(of_import.ends_with("[ConnectedModules]\nNrOfEntries=3\n1=1\n2=2\n3=1\n"), "{of_import}");
+    assert_eq!(objects(&of_import), objects(&of_file));
+    // What is plugged in is part of what an import says.
+    run(&["import", "file.dcf", "--out", "imported"]);
+    run(&["dcf", "imported/file.od.yaml", "--node", "5", "--out", "again.dcf"]);
+    let again = fs::read_to_string(scratch.0.join("again.dcf")).unwrap().replace("\r\n", "\n");
+    assert_eq!(objects(&again), objects(&of_file));
 }
 
 #[test]

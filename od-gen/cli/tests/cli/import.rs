@@ -65,17 +65,17 @@ fn values_of_a_node_stand_at_the_end() {
     assert_eq!(code(&made), 0, "{}", stderr(&made));
 }
 
-/// A maker's key that says the same everywhere is no comment at each entry.
+/// A comment that says the same everywhere is not repeated at each entry.
 #[test]
 fn what_all_entries_say_is_said_once() {
     let scratch = Scratch::new("import-usual");
-    let marked = FAN.replace("PDOMapping=0\n", "PDOMapping=0\nStorageLocation=RAM\n");
-    scratch.file("fan.eds", marked.replacen("StorageLocation=RAM", "StorageLocation=ROM", 1));
+    let marked = FAN.replace("PDOMapping=0\n", ";Checked=yes\nPDOMapping=0\n");
+    scratch.file("fan.eds", marked.replacen("Checked=yes", "Checked=no", 1));
     assert_eq!(code(&odgen(&scratch.0, &["import", "fan.eds"])), 0);
     let text = fs::read_to_string(scratch.0.join("fan.od.yaml")).unwrap();
-    assert_eq!(text.matches("StorageLocation=RAM").count(), 1, "{text}");
-    assert!(text.contains("# StorageLocation=RAM, at 9 of 10 entries\n"), "{text}");
-    assert_eq!(text.matches("# StorageLocation=ROM\n").count(), 1, "{text}");
+    assert_eq!(text.matches("Checked=yes").count(), 1, "{text}");
+    assert!(text.contains("# Checked=yes, at 9 of 10 entries\n"), "{text}");
+    assert_eq!(text.matches("# Checked=no\n").count(), 1, "{text}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::process::Stdio;
 
 use insta::assert_snapshot;
 
-use crate::node::HEATER;
+use crate::node::{HEATER, allowed};
 use crate::served::Served;
 use crate::{Scratch, code, files, odgen, stderr, stdout};
 
@@ -46,6 +46,7 @@ impl House {
 
     /// `odgen node`: what it says and how it ends, as a text.
     fn node(&self, arguments: &[&str]) -> String {
+        let arguments = &allowed(arguments)[..];
         let address = ["--timeout", "100", "--slcan", self.served.address()];
         let output = odgen(&self.scratch.0, &[&["node"], arguments, &address].concat());
         let (said, failed) = (stdout(&output), stderr(&output));

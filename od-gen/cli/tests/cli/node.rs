@@ -64,11 +64,17 @@ impl Bus {
         self.run(&[&[command, "heater.od.yaml", "--node", "5"], arguments].concat())
     }
 
+    /// What a command says, without a terminal at which it could ask.
     fn output(&self, arguments: &[&str]) -> Output {
         odgen(&self.scratch.0, &[&["node"], arguments, &["--slcan", self.served.address()]].concat())
     }
 
+    /// What a command says and how it ends; those that change a node are allowed to.
     fn run(&self, arguments: &[&str]) -> String {
+        self.as_it_is(&allowed(arguments))
+    }
+
+    fn as_it_is(&self, arguments: &[&str]) -> String {
         let output = self.output(arguments);
         let shown: Vec<String> = arguments
             .iter()
@@ -86,6 +92,12 @@ impl Bus {
             code(&output)
         )
     }
+}
+
+/// A command that changes a node, with the word that lets it.
+pub(crate) fn allowed<'a>(arguments: &[&'a str]) -> Vec<&'a str> {
+    let changes = matches!(arguments.first(), Some(&("write" | "restore" | "store" | "load-defaults")));
+    arguments.iter().copied().chain(changes.then_some("--yes")).collect()
 }
 
 #[test]
@@ -253,6 +265,68 @@ fn a_bus_is_scanned_and_commanded() {
     assert_snapshot!("node-network", said.concat());
 }
 
+/// A device whose mappings can be changed.
+const SENSOR: &str = "\
+od-spec: 1
+title: Sensor
+uses: [cia301]
+vendor: {name: Makers of sensors, number: 0x1234}
+devices:
+  sensor: {name: Sensor, bit-rates: [125], product: 7, device-type: 0, features: [device type, identity, heartbeat producer]}
+objects:
+  0x2000: {name: pressure, type: unsigned16, access: rw, pdo: transmit}
+  0x2001: {name: flow, type: unsigned16, access: rw, pdo: transmit, warning: Valves move.}
+pdos:
+  sensor:
+    transmit:
+      1: {map: [pressure], mapping: variable, capacity: 4, transmission: 255}
+      2: {map: [flow], mapping: variable, capacity: 4, transmission: 255}
+";
+
+/// CiA 301 changes a mapping in steps, each of which is right with what the node has by then.
+#[test]
+fn mappings_and_cob_ids_are_changed_step_by_step() {
+    let bus = Bus::of("node-remap", "heater.od.yaml", SENSOR);
+    let said = [
+        bus.node("write", &["1800.1=0x80000185"]),
+        bus.node("write", &["1A00=0"]),
+        bus.node("write", &["1A00.1=0x20010010"]),
+        bus.node("write", &["1A00=1"]),
+        // The node has no second entry.
+        bus.node("write", &["1A00=2"]),
+        bus.node("write", &["1800.1=0x456"]),
+        // What the first one had is free, what it has now is taken.
+        bus.node("write", &["1801.1=0x80000185"]),
+        bus.node("write", &["1801.1=0x456"]),
+        bus.node("write", &["1801.1=0x185"]),
+        // All of it at once, in the order that is given.
+        bus.node("write", &["1800.1=0x80000456", "1A00=0", "1A00.1=0x20000010", "1A00=1", "1800.1=0x456"]),
+        bus.node("read", &["1A00", "1800.1"]),
+    ];
+    assert_snapshot!("node-remap", said.concat());
+}
+
+#[test]
+fn nothing_is_changed_before_it_is_allowed() {
+    let bus = Bus::of("node-allowed", "heater.od.yaml", SENSOR);
+    bus.scratch.file("flow.yaml", "od-parameters: 1\nparameters: {flow: 7}\n");
+    let of_node =
+        |command, more: &[&'static str]| [&[command, "heater.od.yaml", "--node", "5"], more].concat();
+    let said = [
+        bus.as_it_is(&of_node("write", &["flow=7"])),
+        bus.as_it_is(&of_node("write", &["flow=7", "--dry-run"])),
+        bus.as_it_is(&of_node("restore", &["flow.yaml"])),
+        bus.as_it_is(&of_node("restore", &["flow.yaml", "--dry-run"])),
+        bus.as_it_is(&["store", "--node", "5"]),
+        bus.as_it_is(&["load-defaults", "--node", "5", "--dry-run"]),
+        bus.node("read", &["flow"]),
+        bus.node("write", &["flow=7"]),
+        // Nothing to change, and nothing to allow.
+        bus.as_it_is(&of_node("restore", &["flow.yaml"])),
+    ];
+    assert_snapshot!("node-allowed", said.concat());
+}
+
 #[test]
 fn a_node_is_talked_to_as_the_readme_shows() {
     let valve = include_str!("../../../../tests/readme/valve.od.yaml");
@@ -267,7 +341,8 @@ fn a_node_is_talked_to_as_the_readme_shows() {
         ("compare", &["kept.yaml"]),
         ("restore", &["kept.yaml"]),
     ] {
-        let output = bus.output(&[&[command, "valve.od.yaml", "--node", "5"], rest].concat());
+        let rest = allowed(&[&[command], rest].concat()).split_off(1);
+        let output = bus.output(&[&[command, "valve.od.yaml", "--node", "5"], &rest[..]].concat());
         let rest: Vec<String> = rest
             .iter()
             .map(|word| if word.contains(' ') { format!("\"{word}\"") } else { (*word).to_owned() })

@@ -392,8 +392,8 @@ mod terminal {
             stdout(&output)
         };
         assert_eq!(
-            node(&["write", "lamp.od.yaml", "--node", "5", "brightness=60 %"]),
-            "2000h brightness = 60 %  [3C]  written\n"
+            node(&["write", "lamp.od.yaml", "--node", "5", "brightness=60 %", "--yes"]),
+            "2000h brightness: 80 % → 60 %\nlost with a reset: 2000h brightness\n2000h brightness = 60 %  [3C]  written\n"
         );
         assert_eq!(node(&["read", "lamp.od.yaml", "--node", "5", "2000"]), "2000h brightness = 60 %  [3C]\n");
         assert_eq!(
@@ -500,4 +500,89 @@ fn clients_are_let_in_again_when_there_were_too_many() {
     let mut answer = [0; 6];
     client.read_exact(&mut answer).unwrap();
     assert_eq!(&answer, b"V1010\r");
+}
+
+#[test]
+fn more_clients_than_there_is_room_for_are_left_at_once() {
+    let scratch = Scratch::new("serve-clients");
+    scratch.file("lamp.od.yaml", LAMP);
+    let served = Served::start(&scratch, &["lamp.od.yaml", "--node", "5"], Stdio::null());
+    let address = served.address().trim_start_matches("tcp:").to_owned();
+    let answered = || {
+        let mut client = TcpStream::connect(&address).unwrap();
+        client.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        let _ = client.write_all(b"V\r");
+        let mut answer = [0; 6];
+        (client.read_exact(&mut answer).is_ok() && &answer == b"V1010\r").then_some(client)
+    };
+    let mut clients: Vec<TcpStream> = (0..64).map(|_| answered().unwrap()).collect();
+    assert!(answered().is_none());
+    drop(clients.pop());
+    // That it has gone is noticed by another thread.
+    assert!((0..10_000).any(|_| answered().is_some()));
+}
+
+/// An EDS in which limits, mappings and types contradict each other.
+const CONTRADICTIONS: &str = "[DeviceInfo]\nVendorNumber=7\nProductName=Scale\nBaudRate_125=1\n\
+    [1003]\nParameterName=errors\nObjectType=8\nSubNumber=2\n\
+    [1003sub0]\nParameterName=number\nDataType=5\nAccessType=ro\nDefaultValue=8\n\
+    [1003sub1]\nParameterName=error\nDataType=7\nAccessType=ro\n\
+    [1800]\nParameterName=TPDO\nObjectType=9\nSubNumber=3\n\
+    [1800sub0]\nParameterName=number\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+    [1800sub1]\nParameterName=COB-ID\nDataType=7\nAccessType=rw\nDefaultValue=$NODEID+0x180\n\
+    [1800sub2]\nParameterName=type\nDataType=5\nAccessType=rw\nDefaultValue=255\n\
+    [1801]\nParameterName=TPDO\nObjectType=9\nSubNumber=3\n\
+    [1801sub0]\nParameterName=number\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+    [1801sub1]\nParameterName=COB-ID\nDataType=7\nAccessType=rw\nDefaultValue=$NODEID+0x280\n\
+    [1801sub2]\nParameterName=type\nDataType=5\nAccessType=rw\nDefaultValue=255\n\
+    [1A00]\nParameterName=mapping\nObjectType=9\nSubNumber=3\n\
+    [1A00sub0]\nParameterName=number\nDataType=5\nAccessType=rw\nDefaultValue=2\n\
+    [1A00sub1]\nParameterName=first\nDataType=7\nAccessType=rw\nDefaultValue=0x20000008\n\
+    [1A00sub2]\nParameterName=second\nDataType=7\nAccessType=rw\nDefaultValue=0\n\
+    [1A01]\nParameterName=mapping\nObjectType=9\nSubNumber=2\n\
+    [1A01sub0]\nParameterName=number\nDataType=5\nAccessType=rw\nDefaultValue=1\n\
+    [1A01sub1]\nParameterName=first\nDataType=7\nAccessType=rw\nDefaultValue=0x20000010\n\
+    [2000]\nParameterName=load\nDataType=5\nAccessType=rw\nDefaultValue=3\nLowLimit=5\nHighLimit=1\nPDOMapping=1\n\
+    [2001]\nParameterName=names\nObjectType=8\nSubNumber=2\n\
+    [2001sub0]\nParameterName=number\nDataType=9\nAccessType=ro\nDefaultValue=Test\n\
+    [2001sub1]\nParameterName=name\nDataType=5\nAccessType=rw\nDefaultValue=9\n";
+
+/// What is wrong is told in one line; the rest of the file is a node.
+#[test]
+fn a_file_that_contradicts_itself_is_served_as_it_stands() {
+    let scratch = Scratch::new("serve-contradictions");
+    scratch.file("scale.eds", CONTRADICTIONS);
+    let mut served = WithClient::of(Served::start(&scratch, &["scale.eds", "--node", "5"], Stdio::piped()));
+    served.ask("O\r", "\r");
+    let mut ask = |request: &str, answer: &str| {
+        served.ask(&format!("t6058{request}\r"), &format!("z\rt5858{answer}\r"));
+    };
+    // No error has occurred yet.
+    ask("4003100000000000", "4F03100000000000");
+    ask("40001A0000000000", "4F001A0002000000");
+    ask("40001A0100000000", "43001A0108000020");
+    ask("40011A0100000000", "43011A0110000020");
+    ask("4001200000000000", "4301200054657374");
+    // Limits that permit nothing limit nothing.
+    ask("2F00200007000000", "6000200000000000");
+    ask("4000200000000000", "4F00200007000000");
+    served.served.child.kill().unwrap();
+    let mut said = String::new();
+    served.served.child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+    let count = |word: &str| said.lines().filter(|line| line.starts_with(word)).count();
+    assert_eq!((count("error"), count("note: scale.eds: ")), (0, 1), "{said}");
+}
+
+#[test]
+fn an_address_for_other_machines_is_told() {
+    let scratch = Scratch::new("serve-open");
+    scratch.file("lamp.od.yaml", LAMP);
+    for (place, is_told) in [("tcp:0.0.0.0:0", true), ("tcp:127.0.0.1:0", false)] {
+        let mut served = Served::at(&scratch, &["lamp.od.yaml", "--node", "5"], place, Stdio::piped());
+        assert!(served.line.contains(" at tcp:"), "{}", served.line);
+        served.child.kill().unwrap();
+        let mut said = String::new();
+        served.child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        assert_eq!(said.contains("other machines reach"), is_told, "{said}");
+    }
 }

@@ -145,6 +145,7 @@ fn changed(find: &str, replace: &str) -> Vec<String> {
     const COUPLER: &str = "[DeviceInfo]\nVendorNumber=7\nProductName=Coupler\nBaudRate_125=1\nCANopenSafetySupported=1\n\
         [Comments]\nLines=1\nLine1=old\n\
         [2000]\nParameterName=safe input\nDataType=5\nAccessType=ro\nSRDOMapping=1\nUnit=\u{b0}C\n\
+        ;StorageLocation=RAM\n;CO_accessSRDO=rx\n\
         [SupportedModules]\nNrOfEntries=1\n\
         [M1ModuleInfo]\nProductName=8 inputs\nOrderCode=DI8\n[M1SubExtends]\nNrOfEntries=1\n1=0x6000\n\
         [M1SubExt6000]\nParameterName=input\nDataType=5\nAccessType=ro\nCount=1\n[Vendor]\nColor=red\n";
@@ -175,6 +176,17 @@ fn files_differ_in_what_they_say_in_their_own_words() {
             "Device [DeviceInfo] CANopenSafetySupported key: 1 -> 0 [behaviour]",
         ),
         ("Line1=old", "Line1=new", "Device comments eds: old -> new [documents]"),
+        (
+            ";StorageLocation=RAM\n",
+            ";StorageLocation=PERSIST_MFR\n;TPDODetectCos=1\n",
+            "Object(Index(8192)) CO_flagsPDO key: - -> true [firmware]; \
+             Object(Index(8192)) CO_storageGroup key: - -> PERSIST_MFR [firmware]",
+        ),
+        (
+            "CO_accessSRDO=rx",
+            "CO_accessSRDO=trx",
+            "Entries { index: Index(8192), first: SubIndex(0), last: SubIndex(0) } CO_accessSRDO key: rx -> trx [firmware]",
+        ),
         ("Color=red", "Color=red\nShape=round", "Device [Vendor] Shape key: - -> round [behaviour]"),
         ("OrderCode=DI8", "OrderCode=DI9", "Device [M1ModuleInfo] OrderCode modules: DI8 -> DI9 [documents]"),
         ("Count=1", "Count=2", "Device [M1SubExt6000] Count modules: 1 -> 2 [plc]"),
@@ -182,4 +194,25 @@ fn files_differ_in_what_they_say_in_their_own_words() {
     ] {
         assert_eq!(changed(find, replace).join("; "), expected, "{find}");
     }
+}
+
+#[test]
+fn a_specification_says_what_its_eds_has_beside_the_facts() {
+    let with = |more: &str| {
+        system(&format!(
+            "od-spec: 1\ntitle: Lamp\nuses: [cia301]\ndevices:\n  lamp:\n    name: Lamp\n    bit-rates: [125]\n    \
+             features: [heartbeat producer]\n    eds: {{created: 2024-02-29 00:05{more}}}\n"
+        ))
+    };
+    let said = |old: &str, new: &str| {
+        let (old, new) = (with(old), with(new));
+        short(&compare(&ask(&old, &new, Scope::Everything)).unwrap())
+    };
+    let red = ", sections: {Vendor: {Color: red}}";
+    assert_eq!(said(red, red), "");
+    let found = said("", red);
+    assert!(found.contains("[Vendor] Color") && found.contains("red"), "{found}");
+    // Comments that are left to us are not compared: what they say follows.
+    assert_eq!(said("", ", comments: [one]"), "");
+    assert!(said(", comments: [one]", ", comments: [two]").contains("two"));
 }

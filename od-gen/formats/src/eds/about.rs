@@ -6,9 +6,9 @@ use od_spec::model::{Date, Dictionary, System};
 use super::withheld::Withheld;
 use super::writer::SectionWriter;
 
-/// The lines of `[Comments]`: those of the file that the device was read from, or else ours.
+/// The lines of `[Comments]`: those that the file or the specification of the device has, or else ours.
 pub(super) fn write(document: &mut Document<'_>, system: &System, device: &Dictionary) {
-    let of_file = device.further.as_ref().map(|further| further.comments.clone());
+    let of_file = device.further.as_ref().and_then(|further| further.comments.clone());
     let lines = of_file.unwrap_or_else(|| lines(system, device));
     let mut section = SectionWriter::new("Comments", &[]);
     section.key("Lines", lines.len());

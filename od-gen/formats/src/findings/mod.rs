@@ -37,7 +37,7 @@ fn edits(diagnostic: &Diagnostic) -> &[Edit] {
 #[cfg(test)]
 mod tests {
     use od_spec::diag::{Diagnostic, Diagnostics, codes};
-    use od_spec::source::SourceMap;
+    use od_spec::source::{SourceMap, Span};
     use od_spec::visible::is_hidden;
 
     use super::*;
@@ -64,5 +64,50 @@ mod tests {
             &[Findings { name: HOSTILE, diagnostics: &diagnostics, sources: &sources }],
         );
         assert!(!text.trim_end().contains(is_hidden), "{text}");
+    }
+
+    /// All three forms of some messages.
+    fn forms(diagnostics: &Diagnostics, sources: &SourceMap) -> [String; 3] {
+        let findings = Findings { name: "a.eds", diagnostics, sources };
+        [json(diagnostics, sources), github(diagnostics, sources), sarif("1", |_| String::new(), &[findings])]
+    }
+
+    #[test]
+    fn a_flood_of_messages_of_one_code_is_cut_and_counted() {
+        let mut sources = SourceMap::new();
+        let file = sources.add("a.eds", "x\n".repeat(MOST_MESSAGES + 2));
+        let letter = |at: usize| sources.whole(file).part(2 * at, 1);
+        for (messages, more) in [(MOST_MESSAGES, None), (MOST_MESSAGES + 2, Some("2 more messages"))] {
+            let mut diagnostics = Diagnostics::new();
+            diagnostics.push(Diagnostic::new(codes::BAD_NOTATION, letter(0), "of another code"));
+            for at in 0..messages {
+                diagnostics.push(Diagnostic::new(
+                    codes::UNKNOWN_KEY,
+                    letter(at),
+                    format!("letter {at} of it"),
+                ));
+            }
+            for text in forms(&diagnostics, &sources) {
+                let said = text.matches(" of it").count();
+                assert_eq!((said, text.contains("of another code")), (MOST_MESSAGES, true));
+                assert_eq!(text.contains("more messages"), more.is_some());
+                assert!(more.is_none_or(|more| text.contains(more)));
+            }
+        }
+    }
+
+    #[test]
+    fn changes_of_a_message_are_written_whole_or_not_at_all() {
+        let mut sources = SourceMap::new();
+        let file = sources.add("a.eds", "x\n".repeat(MOST_EDITS + 1));
+        let letter = |at: usize| -> Span { sources.whole(file).part(2 * at, 1) };
+        for (changes, is_written) in [(MOST_EDITS, true), (MOST_EDITS + 1, false)] {
+            let message = Diagnostic::new(codes::UNKNOWN_KEY, letter(0), "found it");
+            let mut diagnostics = Diagnostics::new();
+            diagnostics.push((0..changes).fold(message, |message, at| message.edit(letter(at), "new word")));
+            let [json, _, sarif] = forms(&diagnostics, &sources);
+            let expected = if is_written { MOST_EDITS } else { 0 };
+            assert_eq!([json, sarif].map(|text| text.matches("new word").count()), [expected; 2]);
+        }
     }
 }

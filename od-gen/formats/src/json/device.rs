@@ -74,18 +74,14 @@ impl<'a> DeviceView<'a> {
                 "version": file.version,
                 "revision": file.revision,
             }),
-            further: device
-                .further
-                .as_deref()
-                .filter(|further| **further != Further::default())
-                .map(further_view),
+            further: device.further.as_deref().filter(|further| !further.is_empty()).map(further_view),
             objects: Objects(device),
             pdos: device.pdos.iter().map(pdo_view).collect(),
         }
     }
 }
 
-/// What an EDS or DCF says in its own words.
+/// What the EDS says beside the facts of the model.
 fn further_view(further: &Further) -> Json {
     let values = |keys: &[KeyValue]| {
         keys.iter().map(|one| (one.key.clone(), one.value.clone().into())).collect::<serde_json::Map<_, _>>()
@@ -103,7 +99,7 @@ fn further_view(further: &Further) -> Json {
         })
     });
     json!({
-        "comments": further.comments,
+        "comments": further.comments.as_deref().unwrap_or_default(),
         "keys": keys.collect::<BTreeMap<_, _>>(),
         "sections": sections.collect::<BTreeMap<_, _>>(),
         "modules": modules.collect::<Vec<_>>(),

@@ -4,6 +4,7 @@ use od_spec::model::{Date, DateTime, DynamicChannel};
 
 use super::context::Context;
 use super::eds::EdsDefaults;
+use super::further;
 use super::node::{Item, Node};
 use super::remarks::Broken;
 use super::texts::{one_or_more, words};
@@ -62,6 +63,7 @@ pub(super) fn device(context: &Context<'_>, features: &[String]) -> Item {
     add("dummies", list(info.dummies.iter().map(|data_type| Node::plain(data_type.name())).collect()));
     add("dynamic-channels", channels(context));
     add("features", list(features.iter().map(|feature| Node::text(feature.clone())).collect()));
+    add("canopennode", further::canopennode(context));
     let eds = eds(context);
     add("eds", (!eds.is_empty()).then_some(Node::Map(eds)));
     let differs = device
@@ -107,7 +109,12 @@ fn eds(context: &Context<'_>) -> Vec<Item> {
     add("modified-by", text(&file.modified_by, &file.created_by));
     add("file-version", number(file.version, 1));
     add("file-revision", number(file.revision, 0));
-    if items.len() == 1 && file.created == NO_DATE { Vec::new() } else { items }
+    let further = further::of_eds(device);
+    if items.len() == 1 && file.created == NO_DATE && further.is_empty() {
+        return Vec::new();
+    }
+    items.extend(further);
+    items
 }
 
 /// `2009-05-27 09:00`.

@@ -13,6 +13,7 @@ mod emit;
 mod entry;
 mod features;
 mod fold;
+mod further;
 mod mend;
 mod names;
 mod node;

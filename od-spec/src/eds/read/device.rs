@@ -42,6 +42,7 @@ pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -
         dynamic_channels: Vec::new(),
         features: Vec::new(),
         any_error: None,
+        canopennode: Vec::new(),
         eds: Some(file(view)),
         eds_defaults: Some(made("all", start)),
         product_name,
@@ -71,6 +72,9 @@ fn file(view: &View<'_>) -> FileDecl {
         modified_by: info.text("ModifiedBy"),
         version: info.number("FileVersion", 0xFF),
         revision: info.number("FileRevision", 0xFF),
+        // These are read with everything else that the model has no place for.
+        comments: None,
+        sections: Vec::new(),
     }
 }
 

@@ -14,12 +14,6 @@ use crate::notation::words::yes_no;
 use crate::source::{Span, Spanned};
 use crate::wording::FileFormat;
 
-/// The group of what nothing stores.
-const USUAL_GROUP: &str = "RAM";
-
-/// The longest name that becomes a part of one in C.
-const LONGEST_NAME: usize = 64;
-
 /// Adds what the sections of an object say in properties.
 pub(super) fn add_to(mut object: ObjectDecl, part: &ObjectPart<'_>, context: &mut Context<'_>) -> ObjectDecl {
     let mut read = Properties::default();
@@ -39,7 +33,7 @@ pub(super) fn add_to(mut object: ObjectDecl, part: &ObjectPart<'_>, context: &mu
         read.add_to_entry(SubIndex(0), &mut object.entry, false);
     }
     let Properties { group, mut notes, .. } = read;
-    notes.storage_group = group.map(|group| group.value).filter(|group| group != USUAL_GROUP);
+    notes.name_group(group.map(|group| group.value));
     object.editor = Some(Box::new(notes)).filter(|notes| !notes.is_empty());
     object
 }
@@ -91,11 +85,13 @@ impl Properties {
         match property {
             EditorProperty::StorageGroup | EditorProperty::CountLabel if sub.is_some() => true,
             EditorProperty::StorageGroup => {
-                self.group = Some(value.map(str::to_owned)).filter(|group| is_name(&group.value));
+                self.group =
+                    Some(value.map(str::to_owned)).filter(|group| EditorNotes::is_name(&group.value));
                 self.group.is_some()
             }
             EditorProperty::CountLabel => {
-                self.notes.count_label = Some(value.value.to_owned()).filter(|label| is_name(label));
+                self.notes.count_label =
+                    Some(value.value.to_owned()).filter(|label| EditorNotes::is_name(label));
                 self.notes.count_label.is_some()
             }
             EditorProperty::TpdoRequests => {
@@ -132,11 +128,6 @@ fn flag(text: &str) -> Option<bool> {
         "0" => Some(false),
         word => yes_no(word),
     }
-}
-
-/// Whether a text can be a part of a name in C.
-fn is_name(text: &str) -> bool {
-    text.len() <= LONGEST_NAME && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
 }
 
 /// Says what keeps an entry of a group. What has no default has no place in it. What can only be read is not a setting: it is

@@ -12,10 +12,23 @@ use crate::model::{Further, FurtherSection, Index, KeyValue, Module};
 /// Keys of sections, by their names.
 pub(super) type KeysBySection = BTreeMap<String, Vec<KeyValue>>;
 
-/// Reads all of it. `objects` are those of the device, ascending, and `of_modules` are the keys of entries that modules bring.
+/// Reads all of a file. `objects` are those of the device, ascending, and `of_modules` are the keys of entries that modules bring.
 pub(super) fn read(view: &View<'_>, objects: &[Index], of_modules: KeysBySection) -> Further {
+    let has_subs = |_, object: &ObjectPart<'_>, own: &Part<'_>| has_subs(object, own);
+    Further {
+        comments: Some(view.section(Topic::Comments).map(comments).unwrap_or_default()),
+        ..without_comments(view, objects, has_subs, of_modules)
+    }
+}
+
+/// Reads what is beside the comments. `has_subs` says whether an object has sub-indices.
+pub(super) fn without_comments(
+    view: &View<'_>,
+    objects: &[Index],
+    has_subs: impl Fn(Index, &ObjectPart<'_>, &Part<'_>) -> bool,
+    of_modules: KeysBySection,
+) -> Further {
     let mut further = Further {
-        comments: view.section(Topic::Comments).map(comments).unwrap_or_default(),
         keys: of_modules,
         sections: unknown(view),
         connected: view.connected.clone(),
@@ -38,9 +51,8 @@ pub(super) fn read(view: &View<'_>, objects: &[Index], of_modules: KeysBySection
                 }
             }
             Topic::Object(index) => {
-                let object = view.objects.get(&index);
-                let keys = object.map(|object| further_keys_of(index, object, part)).unwrap_or_default();
-                add(&mut further.keys, name(topic, part), keys);
+                let has_subs = view.objects.get(&index).is_some_and(|object| has_subs(index, object, part));
+                add(&mut further.keys, name(topic, part), further_keys_of(index, part, has_subs));
             }
             Topic::FileInfo
             | Topic::DeviceInfo
@@ -59,25 +71,29 @@ pub(super) fn read(view: &View<'_>, objects: &[Index], of_modules: KeysBySection
 
 /// The keys of a section that the model has no place for.
 pub(super) fn further_keys(topic: Topic, part: &Part<'_>) -> Vec<KeyValue> {
-    unread(topic, part, &[])
+    last_of_each(part, |key| kept(topic, key, false))
 }
 
-/// Those of an object's own section: where it has sub-indices, its flags are read there only.
-pub(super) fn further_keys_of(index: Index, object: &ObjectPart<'_>, own: &Part<'_>) -> Vec<KeyValue> {
+/// Those of an object's own section.
+pub(super) fn further_keys_of(index: Index, own: &Part<'_>, has_subs: bool) -> Vec<KeyValue> {
+    last_of_each(own, |key| kept(Topic::Object(index), key, has_subs))
+}
+
+/// Whether the sections of an object say that it has sub-indices.
+pub(super) fn has_subs(object: &ObjectPart<'_>, own: &Part<'_>) -> bool {
     let code = own.value("ObjectType").and_then(|text| coded::object_code(text.value));
-    let has_subs = matches!(code, Some(8 | 9)) || object.subs.keys().any(|sub| *sub > 0);
-    let more: &[&str] = if has_subs { &["ObjFlags"] } else { &[] };
-    unread(Topic::Object(index), own, more)
+    matches!(code, Some(8 | 9)) || object.subs.keys().any(|sub| *sub > 0)
 }
 
-/// The keys of a section that the standard does not have, or the model has no place for, and these.
-fn unread(topic: Topic, part: &Part<'_>, more: &[&str]) -> Vec<KeyValue> {
-    let known = keys::of(topic);
+/// A key that the standard does not have, or the model has no place for, under the name that it is kept by. Where an object
+/// has sub-indices, its flags are read there only.
+pub(super) fn kept(topic: Topic, key: &str, has_subs: bool) -> Option<String> {
+    let more: &[&str] = if has_subs { &["ObjFlags"] } else { &[] };
     let unread = [&UNREAD[..], RESERVED, more];
-    last_of_each(part, |key| match known.as_ref().map(|known| spelling(known, key)) {
+    match keys::of(topic).map(|known| spelling(&known, key)) {
         None | Some(None) => Some(key.to_owned()),
         Some(Some(standard)) => unread.iter().any(|keys| keys.contains(&&*standard)).then_some(standard),
-    })
+    }
 }
 
 /// Adds keys of a section, where there are any.

@@ -19,6 +19,7 @@ mod node;
 mod node_texts;
 mod objects;
 mod shape;
+mod stated;
 mod value;
 mod words;
 
@@ -35,6 +36,8 @@ use further::KeysBySection;
 
 pub(crate) use form::{Form, StandardTypes};
 pub(crate) use node::{FileUse, NodeDecl};
+pub(crate) use stated::stated;
+pub use stated::{cannot_hold, cannot_hold_section};
 
 /// What an EDS or DCF says.
 pub(crate) struct Read {

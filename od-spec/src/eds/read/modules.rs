@@ -80,7 +80,7 @@ pub(super) fn add(
 fn keep(index: Index, part: &ObjectPart<'_>, keys: &mut KeysBySection) {
     if let Some(own) = &part.object {
         let name = further::name(Topic::Object(index), own);
-        further::add(keys, name, further::further_keys_of(index, part, own));
+        further::add(keys, name, further::further_keys_of(index, own, further::has_subs(part, own)));
     }
     for (sub, section) in &part.subs {
         let topic = Topic::Sub(index, *sub);

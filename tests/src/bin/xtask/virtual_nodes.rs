@@ -17,6 +17,8 @@ pub(crate) fn prove(runner: &mut Runner, specs: &[&str], python: &Path, odgen: &
         runner.run(Command::new(python).arg(script).args(arguments).arg("--odgen").arg(odgen))
     };
     run("tests/readers/readme_turbine.py", &[])?;
+    run("tests/readers/traces.py", &[])?;
+    run("tests/readers/confirmed.py", &[])?;
     for stem in specs {
         let (dump, spec) = (format!("generated/{stem}.json"), format!("od-spec/devices/{stem}.od.yaml"));
         let arguments = ["--dump", &dump, "--eds-dir", "generated/eds", "--spec", &spec];

@@ -1,5 +1,9 @@
 //! A file from CANopenEditor gives the groups, counters and attributes that its own code has.
 
+use od_import::import;
+use od_spec::source::SourceMap;
+use od_spec::{NoFiles, compile};
+
 use crate::canopennode::project::of_text;
 
 /// An EDS with the groups of a firmware, one of which has a name that no other exporter knows.
@@ -41,4 +45,34 @@ fn groups_counters_and_attributes_are_those_of_the_file() {
     assert!(header.contains("#define OD_CNT_DOOR 1\n"), "{header}");
     assert!(code.contains(".attribute = ODA_SDO_RW | ODA_TRPDO | ODA_TRSRDO | ODA_MB,"), "{code}");
     project.run("list_entries.c", &[]);
+}
+
+#[test]
+fn an_import_gives_the_code_that_the_file_gives() {
+    let mut sources = SourceMap::new();
+    let root = sources.add("kiln.eds", KILN);
+    let read = compile(&mut sources, root, &mut NoFiles);
+    let specification = import(&read, &sources, root).unwrap().unwrap().text;
+    let (of_file, of_import) = (of_text("kiln.eds", KILN), of_text("kiln.od.yaml", &specification));
+    let groups = |header: &str| -> Vec<String> {
+        header
+            .lines()
+            .filter(|line| line.contains("OD_PERSIST_") || line.contains("OD_CNT_"))
+            .map(str::to_owned)
+            .collect()
+    };
+    assert_eq!(groups(&of_import.file("OD.h")), groups(&of_file.file("OD.h")));
+    let attributes = |code: &str| -> Vec<String> {
+        code.lines().filter(|line| line.contains(".attribute")).map(|line| line.trim().to_owned()).collect()
+    };
+    assert_eq!(attributes(&of_import.file("OD.c")), attributes(&of_file.file("OD.c")));
+}
+
+#[test]
+fn an_object_that_requests_tpdos_has_an_extension() {
+    let requests = KILN.replace(";CO_countLabel=DOOR", ";TPDODetectCos=1");
+    let extended = |text: &str| of_text("kiln.eds", text).file("OD_rules.c").contains("{0x2001U, ");
+    assert!(extended(&requests));
+    assert!(!extended(KILN));
+    of_text("kiln.eds", &requests).run("list_entries.c", &[]);
 }

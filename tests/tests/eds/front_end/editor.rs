@@ -1,9 +1,11 @@
 //! What CANopenEditor writes into an EDS beside the standard: comments with a key, among the keys of an object.
 
 use od_formats::eds::write_eds;
+use od_import::import;
 use od_spec::eds::{Document, Owner};
 use od_spec::model::{Index, Storage, SubIndex};
 use od_spec::source::SourceMap;
+use od_spec::{NoFiles, compile};
 
 use super::{compiled, device};
 
@@ -70,6 +72,23 @@ fn an_eds_is_written_with_what_another_one_kept() {
 }
 
 #[test]
+fn an_import_says_what_the_editor_keeps() {
+    let mut sources = SourceMap::new();
+    let root = sources.add("lamp.eds", LAMP);
+    let read = compile(&mut sources, root, &mut NoFiles);
+    let text = import(&read, &sources, root).unwrap().unwrap().text;
+    let said = "    canopennode:\n      0x1017: {group: PERSIST_COMM, count: HB_PROD}\n      \
+                0x2000: {group: PERSIST_MFR, srdo: {1: receive}, requests-tpdos: yes}\n      \
+                0x2001: {group: PERSIST_APP}\n";
+    assert!(text.contains(said), "{text}");
+    assert!(!text.contains("# StorageLocation") && !text.contains("# CO_"), "{text}");
+    let root = sources.add("lamp.od.yaml", text);
+    let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();
+    let written = String::from_utf8(write_eds(&system, &system.devices[0])).unwrap();
+    assert_eq!(kept(&written), KEPT);
+}
+
+#[test]
 fn a_comment_after_the_keys_is_about_its_own_object() {
     let mut sources = SourceMap::new();
     let file = sources.add("lamp.eds", LAMP);
@@ -77,4 +96,20 @@ fn a_comment_after_the_keys_is_about_its_own_object() {
     let remarks = document.remarks();
     let label = remarks.iter().find(|remark| remark.text == "CO_countLabel=HB_PROD").unwrap();
     assert_eq!(label.owner, Owner::Object(Index(0x1017)));
+}
+
+/// Comments of ours say what stores an entry, and somebody named another group since.
+#[test]
+fn a_group_against_what_stores_its_entries_is_told() {
+    let text = "[2000]\nParameterName=level\nObjectType=0x7\n;StorageLocation=PERSIST_MFR\nDataType=0x0005\nAccessType=rw\n\
+        DefaultValue=1\nPDOMapping=0\n";
+    let mut sources = SourceMap::new();
+    let root = sources.add("lamp.eds", format!("; stored with the application parameters\n{text}"));
+    let read = compile(&mut sources, root, &mut NoFiles);
+    let entry = &read.system.as_ref().unwrap().devices[0].objects[&Index(0x2000)].entries[0];
+    assert_eq!(entry.stored, Storage::Application);
+    let text = import(&read, &sources, root).unwrap().unwrap().text;
+    assert!(text.contains("stored: application") && !text.contains("canopennode:"), "{text}");
+    let told = "# - the group PERSIST_MFR of 2000h, whose entries are stored otherwise\n";
+    assert!(text.contains(told), "{text}");
 }

@@ -6,6 +6,7 @@ use od_formats::eds::{write_dcf, write_eds};
 use od_import::import;
 use od_spec::eds::Document;
 use od_spec::source::{FileId, SourceMap};
+use od_spec::{NoFiles, compile};
 
 use super::{compiled, device};
 
@@ -177,23 +178,96 @@ fn misspelled_and_repeated_keys_are_kept_once() {
 }
 
 #[test]
-fn an_import_lists_what_has_no_place_in_a_specification() {
-    let mut sources = SourceMap::new();
-    let root = sources.add("all.dcf", EVERYTHING);
-    let read = od_spec::compile(&mut sources, root, &mut od_spec::NoFiles);
-    let text = import(&read, &sources, root).unwrap().unwrap().text;
-    for line in [
-        "# three\n",
-        "  # SRDOMapping=1\n  # InvertedSRAD=0x200101\n  # Unit=mm\n",
-        "# - [DeviceInfo] CANopenSafetySupported=1\n",
-        "# - [DeviceComissioning] Room=12\n",
-        "# - [Tool1] Command=edit $DCF\n",
-        "# - [Vendor Specific] Shape=round\n",
-        "# - module 1: 8 inputs (DI8); brings 6005h; extends 1027h, 6000h\n",
-        "# - 2000h: ParamRefd=-B1\n",
-        "# - NodeRefd=+A1-K7\n",
-        "# - CANopenManager=1\n",
-    ] {
+fn an_import_lists_what_belongs_to_the_node() {
+    let text = imported("all.dcf", EVERYTHING);
+    for line in ["# - 2000h: ParamRefd=-B1\n", "# - NodeRefd=+A1-K7\n", "# - CANopenManager=1\n"] {
         assert!(text.contains(line), "{line}\nin\n{text}");
     }
+    assert!(!text.contains("no place in a specification"), "{text}");
+}
+
+/// The specification of a file.
+fn imported(name: &str, text: &str) -> String {
+    let mut sources = SourceMap::new();
+    let root = sources.add(name, text);
+    let read = compile(&mut sources, root, &mut NoFiles);
+    import(&read, &sources, root).unwrap().unwrap().text
+}
+
+/// The EDS of the only device of a file.
+fn eds_of(name: &str, text: &str) -> String {
+    let mut sources = SourceMap::new();
+    let root = sources.add(name, text);
+    let compiled = compile(&mut sources, root, &mut NoFiles);
+    let errors: Vec<&str> = compiled.diagnostics.iter().map(|one| one.message.as_str()).collect();
+    let system = compiled.system.unwrap_or_else(|| panic!("{errors:?}"));
+    String::from_utf8(write_eds(&system, &system.devices[0])).unwrap()
+}
+
+#[test]
+fn the_eds_of_an_import_has_every_key_that_the_eds_of_the_file_has() {
+    let (of_file, of_import) =
+        (eds_of("all.dcf", EVERYTHING), eds_of("all.od.yaml", &imported("all.dcf", EVERYTHING)));
+    let mut sources = SourceMap::new();
+    let file = sources.add("eds", of_file.as_str());
+    let values = |text: &str| -> BTreeMap<(String, String), String> {
+        keys(file, text).into_iter().map(|(key, (value, _))| (key, value)).collect()
+    };
+    assert_eq!(values(&of_import), values(&of_file));
+}
+
+#[test]
+fn a_file_without_comments_gives_an_eds_without_comments() {
+    let text =
+        "[FileInfo]\nFileName=a.eds\n[2000]\nParameterName=a\nDataType=5\nAccessType=ro\nPDOMapping=0\n";
+    assert!(eds_of("a.eds", text).contains("[Comments]\r\nLines=0\r\n"));
+    let text = imported("a.eds", text);
+    assert!(text.contains("comments: []"), "{text}");
+    assert!(eds_of("a.od.yaml", &text).contains("[Comments]\r\nLines=0\r\n"));
+    // A specification that says nothing about them leaves them to us.
+    let of_ours = eds_of("a.od.yaml", &text.replace("comments: []", "file-version: 1"));
+    assert!(of_ours.contains("[Comments]\r\nLines="), "{of_ours}");
+    assert!(!of_ours.contains("[Comments]\r\nLines=0"), "{of_ours}");
+}
+
+#[test]
+fn an_import_lists_keys_that_no_line_can_hold() {
+    let long = "x".repeat(300);
+    let text = format!(
+        "[2000]\nParameterName=a\nDataType=5\nAccessType=ro\nUnit={long}\nScale=2\nTab=a\tb\n\
+         [Größe]\nBreite=3 µm\n[速度]\nA=1\n"
+    );
+    let text = imported("a.eds", &text);
+    assert!(
+        text.contains("sections: {2000: {Scale: 2}, ") && text.contains("Größe: {Breite: 3 µm}"),
+        "{text}"
+    );
+    assert!(text.contains(&format!("# - [2000]\n# Unit={long}\n# - [2000] Tab=a")), "{text}");
+    assert!(text.contains("# - [速度] A=1\n"), "{text}");
+    assert!(eds_of("a.od.yaml", &text).contains("\r\nScale=2\r\n"));
+}
+
+#[test]
+fn what_a_specification_says_beside_the_facts_is_in_its_eds() {
+    let written = eds_of(
+        "lamp.od.yaml",
+        "od-spec: 1\ntitle: Lamp\nuses: [cia301]\ndevices:\n  lamp:\n    name: Lamp\n    bit-rates: [125]\n    \
+         features: [heartbeat producer]\n    eds:\n      created: 2024-02-29 00:05\n      comments: [one; two, three]\n      \
+         sections:\n        deviceinfo: {ng_slave: 1, Ours: 2}\n        2000: {srdomapping: 1}\n        \
+         2001: {ObjFlags: 1}\n        2001sub1: {InvertedSRAD: 0x200101}\n        Tools: {Items: 1}\n        \
+         tool1: {Name: editor, Command: edit $EDS}\n        Own Section: {Größe: 3 µm}\n\
+         objects:\n  0x2000: {name: level, type: unsigned8, access: rw}\n  \
+         0x2001: {name: limits, record: {1: {name: low, type: unsigned8, access: rw}}}\n",
+    );
+    let section = |name: &str| {
+        let start = written.find(&format!("[{name}]\r\n")).unwrap_or_else(|| panic!("[{name}] in {written}"));
+        written[start..].split("\r\n\r\n").next().unwrap().trim_end().to_owned()
+    };
+    assert!(section("DeviceInfo").ends_with("\r\nNG_Slave=1\r\nOurs=2"), "{written}");
+    assert_eq!(section("Comments"), "[Comments]\r\nLines=2\r\nLine1=one; two\r\nLine2=three");
+    assert!(section("2000").ends_with("\r\nSRDOMapping=1"), "{written}");
+    assert!(section("2001").ends_with("\r\nObjFlags=1"), "{written}");
+    assert!(section("2001sub1").ends_with("\r\nInvertedSRAD=0x200101"), "{written}");
+    assert_eq!(section("Tool1"), "[Tool1]\r\nName=editor\r\nCommand=edit $EDS");
+    assert!(section("Own Section").starts_with("[Own Section]\r\nGroesse=3 um"), "{written}");
 }

@@ -257,3 +257,28 @@ fn a_bit_rate_of_a_node_that_is_none_is_reported() {
     // One that CiA 301 does not have is kept.
     assert_eq!(read("100 Kbps"), (100, true));
 }
+
+#[test]
+fn settings_of_a_node_that_are_no_numbers_of_a_bus_are_reported() {
+    let said_of = |node: &str, network: &str| {
+        let element = format!(
+            "<deviceCommissioning NodeID=\"{node}\" nodeName=\"tank\" actualBaudRate=\"125 Kbps\" networkNumber=\"{network}\" networkName=\"\" CANopenManager=\"false\"/>"
+        );
+        let text =
+            file("", "", "").replace("</NetworkManagement>", &format!("{element}</NetworkManagement>"));
+        let found = said("tank.xdc", text);
+        let lines = found.lines().filter(|line| line.contains("NodeID=") || line.contains("networkNumber="));
+        lines.filter(|line| line.contains("expected")).map(ToOwned::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(said_of("127", "0"), [""; 0]);
+    assert_eq!(said_of("0xFF", "4294967295"), [""; 0], "255 is a node that LSS is to give a node-ID");
+    for node in ["0", "128", "200", "-1", "one"] {
+        let found = said_of(node, "0");
+        assert!(
+            matches!(&found[..], [one] if one.contains(&format!("found `NodeID=\"{node}\"`, expected a node-ID"))),
+            "{found:?}"
+        );
+    }
+    let found = said_of("5", "4294967296");
+    assert!(matches!(&found[..], [one] if one.contains("expected a number")), "{found:?}");
+}

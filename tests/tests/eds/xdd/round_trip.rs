@@ -38,14 +38,20 @@ fn eds_of(system: &System) -> String {
     without_what_xdd_lacks(write_eds(system, &system.devices[0]))
 }
 
-/// An EDS or DCF without the links of objects and without the comments of the file, which an XDD has no place for.
+/// An EDS or DCF without the links of objects, the comments of the file and the sections of a maker, which an XDD has no place
+/// for.
 fn without_what_xdd_lacks(eds: Vec<u8>) -> String {
     String::from_utf8(eds)
         .unwrap()
         .split("\r\n\r\n")
-        .filter(|section| !section.contains("ObjectLinks]") && !section.starts_with("[Comments]"))
+        .filter(|section| !section.contains("ObjectLinks]"))
+        .filter(|section| {
+            !section.starts_with("[Comments]") && !section.starts_with("[Section of the maker]")
+        })
         .collect::<Vec<_>>()
         .join("\r\n\r\n")
+        .trim_end()
+        .to_owned()
 }
 
 /// The systems of the specifications above, which may have warnings.

@@ -93,9 +93,12 @@ fn eds(file: &Artifact, count: &mut impl FnMut(String), complaints: &mut Vec<Str
             complaints.push(format!("{}: {line:?}", file.path));
         }
         if line.starts_with('[') {
-            line.clone_into(&mut section);
+            // The name of a section of the maker is one of the texts, as its keys are; those of the standard have no blank.
+            let name = if line.contains(' ') { "[of the maker]" } else { line };
+            name.clone_into(&mut section);
             count(format!("eds {section}"));
         } else if let Some((key, value)) = line.split_once('=').filter(|_| !line.starts_with(';')) {
+            let key = if section == "[of the maker]" { "key" } else { key };
             count(format!("eds {section} {key}"));
             if section == "[Comments]" && value.contains([';', '#', '=']) {
                 complaints.push(format!("{}: {line}", file.path));

@@ -47,8 +47,28 @@ fn send(node: &mut VirtualNode<'_>, frames: &[(u16, &[u8])]) {
 }
 
 fn read(node: &VirtualNode<'_>, index: u16) -> u32 {
-    let value = node.dictionary().read(index, 0).unwrap();
+    element(node, index, 0)
+}
+
+/// A value of 32 bits of an array.
+fn element(node: &VirtualNode<'_>, index: u16, sub: u8) -> u32 {
+    let value = node.dictionary().read(index, sub).unwrap();
     value.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte))
+}
+
+#[test]
+fn the_node_tells_that_it_stores_and_restores_on_command() {
+    with_lamp(|lamp| {
+        let tells = |lamp: &VirtualNode<'_>| [0x1010, 0x1011].map(|index| element(lamp, index, 1));
+        assert_eq!(tells(lamp), [1, 1]);
+        for reset in [RESET, RESET_COMMUNICATION] {
+            send(lamp, &[reset]);
+            assert_eq!(tells(lamp), [1, 1]);
+        }
+        // A signature is a command, and no value.
+        send(lamp, &[(0x605, &[0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e'])]);
+        assert_eq!(tells(lamp), [1, 1]);
+    });
 }
 
 const RESET: (u16, &[u8]) = (0, &[129, 0]);

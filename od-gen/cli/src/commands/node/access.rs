@@ -1,14 +1,17 @@
 //! `odgen node read` and `odgen node write`.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
-use od_bus::client::{AccessError, Bus, Client, involved};
+use od_bus::client::{AccessError, Bus, Client, judged};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::model::{Dictionary, EntryId, Value};
+use od_spec::model::{Dictionary, EntryId, Role, SubIndex, Value};
 use od_spec::source::{SourceMap, Spanned};
 use od_spec::{Commissioning, Layer, SettingNames, assign_layers, nearest, rule_codes};
 
 use super::args::{NodeReadArgs, NodeWriteArgs};
+use super::confirm::preview;
+use super::keep::{had, values};
 use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{ERRORS, SUCCESS};
 use crate::report::{Report, print};
@@ -86,57 +89,78 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
         args.settings.iter().map(|text| of_line("ENTRY=VALUE", text)).collect();
     let mut layer = Layer::of(od_spec::settings(&settings, &mut diagnostics));
     layer.unlocked = args.unlock.iter().map(|name| of_line("--unlock", name)).collect();
-    let meant = SettingNames::of(target.device).read(target.id, &layer.settings);
+    let names = SettingNames::of(target.device);
+    let meant = names.read(target.id, &layer.settings);
     if diagnostics.has_errors() || meant.len() < settings.len() {
         // What is no value cannot be sent, and needs no bus to be told.
         assign_layers(target.system, target.device, target.id, &[layer], &mut diagnostics);
         report.show(&diagnostics, &sources);
         return Err(ERRORS);
     }
+    if let Some(command) = meant.iter().find_map(|(id, _)| instead(*id, target.id)) {
+        return Err(report.refuse(command));
+    }
     let mut client = reach(&args.node, target, report)?;
     let written: BTreeSet<EntryId> = meant.iter().map(|(id, _)| *id).collect();
+    let judged = judged(target.system, target.device, &written);
+    let before = had(&mut client, target, written.union(&judged).copied(), report)?;
+    before.tell_taken_for_default(target, &judged, report);
+    let changes = before.changes(target, &meant);
     let mut now = Commissioning::of_node(target.device, target.id);
-    for id in involved(target.system, target.device, &written) {
-        if let Some(value) = asked(&mut client, target, id, report)? {
-            now.values.insert(id, value);
-        }
+    now.values = before.values;
+    let mut unlocked = BTreeSet::new();
+    for round in rounds(target.device, &meant) {
+        let of_node = now.configured(target.device);
+        let settings = layer.settings.get(round.clone()).unwrap_or_default().to_vec();
+        let mut round_of = Layer::of(settings);
+        round_of.unlocked.clone_from(&layer.unlocked);
+        let assigned = assign_layers(target.system, &of_node, target.id, &[round_of], &mut diagnostics);
+        unlocked.extend(assigned.unlocked);
+        now.values.extend(meant.get(round).unwrap_or_default().iter().cloned());
+        // That there is nothing to unlock is said once.
+        layer.unlocked.retain(|name| unlocked.iter().any(|id| names.entry(&name.value) == Some(*id)));
     }
-    let of_node = now.configured(target.device);
-    let assigned = assign_layers(target.system, &of_node, target.id, &[layer], &mut diagnostics);
     checked(&diagnostics, &sources, args.force, report)?;
-    for id in &assigned.unlocked {
+    for id in &unlocked {
         report.note(&format!(
             "LOCKED {}: the device takes it only while it is unlocked for service",
             target.words().entry(*id)
         ));
     }
+    let question = format!("write {} of {}", values(changes.len()), target.name());
+    args.confirm.ask(&preview(target, &changes), &question, report)?;
     send(&mut client, target, &meant, report)
 }
 
-/// What a node has now in an entry that a condition asks for.
-fn asked<B: Bus>(
-    client: &mut Client<B>,
-    target: Target<'_>,
-    id: EntryId,
-    report: &Report,
-) -> Result<Option<Value>, u8> {
-    let data_type = target.device.entry(id).map(|entry| entry.data_type);
-    let why = match client.read(target.id, id) {
-        Ok(bytes) => match data_type.and_then(|data_type| Value::from_bytes(data_type, &bytes)) {
-            Some(value) => return Ok(Some(value)),
-            None => "it holds no value of its type".to_owned(),
-        },
-        Err(error) if error.is_of_entry() => error.to_string(),
-        Err(error) => return Err(report.refuse(target.failed("read", id, &error))),
+/// What is said of a write that is a command of its own.
+fn instead(id: EntryId, node: u8) -> Option<Diagnostic> {
+    let command = match Role::of(id.index) {
+        Role::StoreParameters => "store",
+        Role::RestoreDefaults => "load-defaults",
+        _ => return None,
     };
-    report.note(&has_default(target, id, &why));
-    Ok(None)
+    let group = if id.sub == SubIndex(1) { String::new() } else { format!(" --group {}", id.sub) };
+    let message = format!("{id} takes a signature, which is a command");
+    let help = format!("write `odgen node {command} --node {node}{group}`");
+    Some(Diagnostic::without_place(rule_codes::IS_COMMAND, message).help(help))
 }
 
-/// What is said of an entry that a condition asks for and a node does not tell.
-pub(super) fn has_default(target: Target<'_>, id: EntryId, why: &str) -> String {
-    let name = target.words().entry(id);
-    format!("a condition asks for {name}, which cannot be read ({why}): it is taken to have its default")
+/// Settings that can be looked at together: no entry is set twice in a round. CiA 301 changes a mapping by writing its number of
+/// entries twice.
+fn rounds(device: &Dictionary, meant: &[(EntryId, Value)]) -> Vec<Range<usize>> {
+    let holder = |id: EntryId| {
+        device.entry(id).and_then(|entry| entry.alias.as_ref()).map_or(id, |alias| alias.target)
+    };
+    let mut rounds = Vec::new();
+    let (mut begin, mut set) = (0, BTreeSet::new());
+    for (at, (id, _)) in meant.iter().enumerate() {
+        if !set.insert(holder(*id)) {
+            rounds.push(begin..at);
+            (begin, set) = (at, BTreeSet::from([holder(*id)]));
+        }
+    }
+    rounds.push(begin..meant.len());
+    rounds
 }
 
 /// Shows what the check says, except what is about files that are loaded at boot: commands are given here by intention, and in the order

@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::{Args, Subcommand, ValueEnum};
 use od_bus::trace::Service;
 
+use super::confirm::ConfirmArgs;
 use crate::bus_nodes::NodesArgs;
 use crate::messages::{Format, Messages};
 
@@ -19,14 +20,14 @@ pub(crate) struct NodeArgs {
 pub(crate) enum NodeCommand {
     /// Read entries: name, value in its unit or by its name, set bits, bytes
     Read(NodeReadArgs),
-    /// Write entries, in the order that is given, after a check against the specification and what the node has
+    /// Write entries, in the order that is given, after a check against the specification and what the node has, and a question
     Write(NodeWriteArgs),
     /// Write the parameters of a node, or of all nodes of a machine, into parameter files, by name and in units: all that can be read and written
     Backup(NodeBackupArgs),
     /// Tell which values of a parameter file a node, or the nodes of a machine, have otherwise; exit code 3 when there are any
     Compare(NodeFileArgs),
-    /// Give a node, or the nodes of a machine, the values of a parameter file, in an order that they take, and read them back
-    Restore(NodeFileArgs),
+    /// Give a node, or the nodes of a machine, the values of a parameter file, after a question, in an order that they take, and read them back
+    Restore(NodeRestoreArgs),
     /// Tell what goes over the bus, while it does: heartbeats and their loss, states, emergencies, PDOs and transfers with names and units
     Monitor(NodeMonitorArgs),
     /// Ask all 127 node-IDs who they are, and tell which of the specifications fits
@@ -46,7 +47,8 @@ impl NodeCommand {
             Self::Read(args) => args.node.link.messages.format,
             Self::Write(args) => args.node.link.messages.format,
             Self::Backup(args) => args.node.link.messages.format,
-            Self::Compare(args) | Self::Restore(args) => args.node.link.messages.format,
+            Self::Compare(args) => args.node.link.messages.format,
+            Self::Restore(args) => args.file.node.link.messages.format,
             Self::Monitor(args) => args.link.messages.format,
             Self::Scan(args) => args.link.messages.format,
             Self::Nmt(args) => args.link.messages.format,
@@ -134,6 +136,9 @@ pub(crate) struct NodeWriteArgs {
     /// Send also what fails the check; the node has the last word
     #[arg(long)]
     pub force: bool,
+
+    #[command(flatten)]
+    pub confirm: ConfirmArgs,
 }
 
 #[derive(Debug, Args)]
@@ -158,6 +163,15 @@ pub(crate) struct NodeFileArgs {
     /// The parameter file; of a machine of a plant the directory with a file of each node
     #[arg(value_name = "FILE|DIR")]
     pub file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeRestoreArgs {
+    #[command(flatten)]
+    pub file: NodeFileArgs,
+
+    #[command(flatten)]
+    pub confirm: ConfirmArgs,
 }
 
 #[derive(Debug, Args)]
@@ -281,6 +295,9 @@ pub(crate) struct NodeGroupArgs {
     /// Which parameters: 1 all, 2 communication, 3 application, from 4 on the manufacturer's
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=127))]
     pub group: u8,
+
+    #[command(flatten)]
+    pub confirm: ConfirmArgs,
 
     #[command(flatten)]
     pub link: LinkArgs,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use od_bus::client::{AccessError, Bus, Client, involved, kept, plan, value};
+use od_bus::client::{AccessError, Bus, Client, involved, judged, kept, plan, value};
 use od_gen::Artifact;
 use od_gen::files::Existing;
 use od_import::parameters::{About, ParameterText, write_all};
@@ -13,9 +13,9 @@ use od_spec::model::{EntryId, Index, Role, Value, Write};
 use od_spec::source::{SourceMap, Span};
 use od_spec::{Assigned, Commissioning, Layer, ParameterValues, assign_layers, rule_codes};
 
-use super::access::{has_default, not_written};
-use super::args::{NodeBackupArgs, NodeFileArgs};
-use super::reach::AnyBus;
+use super::access::not_written;
+use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs};
+use super::confirm::{Change, ConfirmArgs, preview};
 use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{DIFFERS, ERRORS, SUCCESS};
 use crate::output::{forced, keep};
@@ -24,13 +24,48 @@ use crate::report::{Report, print, shown};
 use crate::settings::{ParameterFiles, parameter_files};
 
 /// What a node has, and what it does not tell, with the reason.
-struct Had {
-    values: ParameterValues,
+pub(super) struct Had {
+    pub(super) values: ParameterValues,
     untold: Vec<(EntryId, String)>,
 }
 
+/// So many entries that cannot be read are named one by one.
+const NAMED: usize = 4;
+
+impl Had {
+    /// What some writes change, one after the other.
+    pub(super) fn changes(&self, target: Target<'_>, meant: &[(EntryId, Value)]) -> Vec<Change> {
+        let mut now = self.values.clone();
+        let change = |(id, value): &(EntryId, Value)| {
+            let old = now.insert(*id, value.clone());
+            let old = old.map(|old| words(target, *id, &old));
+            Change { id: *id, old, new: words(target, *id, value) }
+        };
+        meant.iter().map(change).collect()
+    }
+
+    /// Says of entries that rules look at, and that the node does not tell, that they are taken to have their defaults.
+    pub(super) fn tell_taken_for_default(
+        &self,
+        target: Target<'_>,
+        judged: &BTreeSet<EntryId>,
+        report: &Report,
+    ) {
+        let untold: Vec<_> = self.untold.iter().filter(|(id, _)| judged.contains(id)).collect();
+        for (id, why) in untold.iter().take(NAMED) {
+            let name = target.words().entry(*id);
+            report.note(&format!(
+                "a rule looks at {name}, which cannot be read ({why}): it is taken to have its default"
+            ));
+        }
+        if untold.len() > NAMED {
+            report.note(&format!("so are {} more entries that cannot be read", untold.len() - NAMED));
+        }
+    }
+}
+
 /// Reads entries; what a node refuses is noted. The exit code after a message where nothing can be read any more.
-fn had<B: Bus>(
+pub(super) fn had<B: Bus>(
     client: &mut Client<B>,
     target: Target<'_>,
     ids: impl IntoIterator<Item = EntryId>,
@@ -131,7 +166,7 @@ pub(super) fn parameters_of<B: Bus>(
 }
 
 /// `1 value`, `2 values`.
-fn values(count: usize) -> String {
+pub(super) fn values(count: usize) -> String {
     format!("{count} value{}", if count == 1 { "" } else { "s" })
 }
 
@@ -215,29 +250,58 @@ fn told_differences(target: Target<'_>, meant: &ParameterValues, had: &Had, repo
 }
 
 /// What is done with a node and a parameter file.
-pub(super) type WithFile<B> = fn(&mut Client<B>, &Beside<'_>, &Report) -> Result<u8, u8>;
+#[derive(Clone, Copy)]
+pub(super) enum WithFile<'a> {
+    Compare,
+    /// What allows the writes.
+    Restore(&'a ConfirmArgs),
+}
+
+impl WithFile<'_> {
+    /// Done with all nodes: `compared`.
+    pub(super) const fn done(self) -> &'static str {
+        match self {
+            Self::Compare => "compared",
+            Self::Restore(ConfirmArgs { dry_run: true, .. }) => "looked at",
+            Self::Restore(_) => "restored",
+        }
+    }
+
+    /// Does it; the exit code.
+    pub(super) fn with<B: Bus>(
+        self,
+        client: &mut Client<B>,
+        beside: &Beside<'_>,
+        report: &Report,
+    ) -> Result<u8, u8> {
+        match self {
+            Self::Compare => compared(client, beside, report),
+            Self::Restore(confirm) => restored(client, beside, confirm, report),
+        }
+    }
+}
 
 /// Reads what a file sets, and tells where the node differs; the same for the files of a directory and the nodes of a machine.
 pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
-    with_file(args, "compared", compared, report)
+    with_file(args, WithFile::Compare, report)
 }
 
 /// Writes what a file sets and the node has otherwise, and reads all of it back; the same for the files of a directory and the nodes of a
 /// machine.
-pub(super) fn restore(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
-    with_file(args, "restored", restored, report)
+pub(super) fn restore(args: &NodeRestoreArgs, report: &Report) -> Result<u8, u8> {
+    with_file(&args.file, WithFile::Restore(&args.confirm), report)
 }
 
-fn with_file(args: &NodeFileArgs, done: &str, work: WithFile<AnyBus>, report: &Report) -> Result<u8, u8> {
+fn with_file(args: &NodeFileArgs, work: WithFile<'_>, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.node, report)?;
     if let Described::Machine(machine) = &described
         && args.file.is_dir()
     {
-        return machine.with_files(args, done, work, report);
+        return machine.with_files(args, work, report);
     }
     let target_of = |files: &ParameterFiles| described.target(&args.node, Some(files), report);
     let beside = beside(described.sources(), args.file.clone(), target_of, report)?;
-    work(&mut reach(&args.node, beside.target, report)?, &beside, report)
+    work.with(&mut reach(&args.node, beside.target, report)?, &beside, report)
 }
 
 fn compared<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report) -> Result<u8, u8> {
@@ -258,18 +322,21 @@ fn compared<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report
     })
 }
 
-fn restored<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report) -> Result<u8, u8> {
+fn restored<B: Bus>(
+    client: &mut Client<B>,
+    beside: &Beside<'_>,
+    confirm: &ConfirmArgs,
+    report: &Report,
+) -> Result<u8, u8> {
     let Beside { target, file, sources, layers, meant } = beside;
     let target = *target;
     let written_ids: BTreeSet<EntryId> = meant.keys().copied().collect();
-    let asked_for = involved(target.system, target.device, &written_ids);
+    let asked_for = judged(target.system, target.device, &written_ids);
     let ids: BTreeSet<EntryId> =
         kept(target.device).chain(written_ids).chain(asked_for.iter().copied()).collect();
     let before = had(client, target, ids, report)?;
-    // What the file does not set stays as the node has it, and conditions ask for that.
-    for (id, why) in before.untold.iter().filter(|(id, _)| asked_for.contains(id)) {
-        report.note(&has_default(target, *id, why));
-    }
+    // What the file does not set stays as the node has it, and rules look at that.
+    before.tell_taken_for_default(target, &asked_for, report);
     let mut now = Commissioning::of_node(target.device, target.id);
     now.values.clone_from(&before.values);
     let mut diagnostics = Diagnostics::new();
@@ -291,6 +358,11 @@ fn restored<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report
             target.words().entry(write.id)
         ));
     }
+    if !writes.is_empty() {
+        let changes = changes(target, &before, &writes);
+        let question = format!("write {} of {}", values(changes.len()), target.name());
+        confirm.ask(&preview(target, &changes), &question, report)?;
+    }
     let code = written(client, target, &writes, report)?;
     let after = had(client, target, meant.keys().copied(), report)?;
     let (count, unread) = told_differences(target, meant, &after, report);
@@ -308,6 +380,19 @@ fn restored<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report
     let held = values(meant.len());
     let line = format!("  {}  {held} read back as in {}\n", target.name(), shown(file));
     Ok(if code == SUCCESS { print(&line) } else { code })
+}
+
+/// What some writes change: of an entry that is written twice, as that of a PDO which is switched off and on, the last.
+fn changes(target: Target<'_>, before: &Had, writes: &[Write]) -> Vec<Change> {
+    let mut last: Vec<Change> = Vec::new();
+    for write in writes {
+        let old = before.values.get(&write.id).map(|old| words(target, write.id, old));
+        let new = target.words().value(write.id, &write.bytes);
+        last.retain(|change| change.id != write.id);
+        last.push(Change { id: write.id, old, new });
+    }
+    last.retain(|change| change.old.as_ref() != Some(&change.new));
+    last
 }
 
 /// What a check says, but of values that the node has already and that are not written.

@@ -13,9 +13,8 @@ use od_spec::source::SourceMap;
 
 use super::args::{NodeBackupArgs, NodeFileArgs, OneNodeArgs};
 use super::keep::{WithFile, beside, kept_line, parameters_of};
-use super::reach::AnyBus;
 use super::{Target, connect, is_meant};
-use crate::exit::{DIFFERS, SUCCESS};
+use crate::exit::{DIFFERS, SUCCESS, USAGE};
 use crate::output::{forced, keep};
 use crate::plant_file;
 use crate::report::{Report, node_id, print, shown};
@@ -122,8 +121,7 @@ impl Machine {
     pub(super) fn with_files(
         &self,
         args: &NodeFileArgs,
-        done: &str,
-        work: WithFile<AnyBus>,
+        work: WithFile<'_>,
         report: &Report,
     ) -> Result<u8, u8> {
         let (mut all, mut code) = (Vec::new(), SUCCESS);
@@ -145,8 +143,12 @@ impl Machine {
         let (mut well, mut differing) = (0, 0);
         for beside in &all {
             let one = is_meant(&mut client, &args.node, beside.target, report)
-                .and_then(|()| work(&mut client, beside, report))
+                .and_then(|()| work.with(&mut client, beside, report))
                 .unwrap_or_else(|code| code);
+            // There is nobody to ask, for any of them.
+            if one == USAGE {
+                return Err(USAGE);
+            }
             well += usize::from(one == SUCCESS);
             differing += usize::from(one == DIFFERS);
             code = worse(code, one);
@@ -156,7 +158,8 @@ impl Machine {
             1 => ", 1 differs".to_owned(),
             count => format!(", {count} differ"),
         };
-        let line = format!("{}: {} of {} nodes {done}{differ}\n", self.name, well + differing, all.len());
+        let (name, done) = (&self.name, work.done());
+        let line = format!("{name}: {} of {} nodes {done}{differ}\n", well + differing, all.len());
         Ok(worse(code, print(&line)))
     }
 

@@ -2,6 +2,7 @@
 
 mod access;
 mod args;
+mod confirm;
 mod keep;
 mod machine;
 mod monitor;

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use od_bus::client::{AccessError, Answered, BusError, Identity};
+use od_bus::client::{AccessError, Answer, BusError, Heard, Identity};
+use od_formats::nmt;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{EntryId, Index, SubIndex};
 
@@ -22,7 +23,7 @@ pub(super) fn broken(error: &BusError) -> Diagnostic {
         .help("check adapter, bit rate and wires")
 }
 
-/// Lists the nodes that answer, each with the devices that it can be.
+/// Lists the nodes that are heard, each with the devices that it can be. Two devices with one node-ID are a fault of the bus.
 pub(super) fn scan(args: &NodeScanArgs, report: &Report) -> Result<u8, u8> {
     let mut known: Vec<(String, Identity)> = Vec::new();
     let paths = if args.specs.is_empty() {
@@ -40,19 +41,39 @@ pub(super) fn scan(args: &NodeScanArgs, report: &Report) -> Result<u8, u8> {
     let within = Duration::from_millis(args.link.timeout.into());
     let found = od_bus::client::scan(&mut client, within).map_err(|error| report.refuse(broken(&error)))?;
     if found.is_empty() {
-        let message = "no node answers";
-        return Err(report.refuse(
-            Diagnostic::without_place(codes::ACCESS_FAILED, message)
-                .help("check bit rate, wires and power; a node that is stopped does not answer"),
-        ));
+        let message = "no node answers, and none is heard";
+        return Err(report.refuse(Diagnostic::without_place(codes::ACCESS_FAILED, message).help(
+            "check bit rate, wires and power; a node that is stopped, and sends no heartbeat, is not heard",
+        )));
     }
-    let text: String = found.iter().map(|answered| described(answered, &known)).collect();
-    Ok(print(&text))
+    let text: String = found.iter().map(|heard| described(heard, &known)).collect();
+    let code = print(&text);
+    let shared = found.iter().filter(|heard| heard.answer == Answer::Two);
+    let shared: Vec<String> = shared.map(|heard| heard.node.to_string()).collect();
+    if shared.is_empty() {
+        return Ok(code);
+    }
+    let message = format!("two devices have one node-ID: {}", shared.join(", "));
+    Err(report.refuse(Diagnostic::without_place(codes::BAD_NODE_ID, message).help(
+        "switch one of them off, and give the other one a node-ID of its own: by its switches, or by LSS",
+    )))
 }
 
 /// The lines about a node.
-fn described(answered: &Answered, known: &[(String, Identity)]) -> String {
-    let Identity { device_type, vendor, product, revision, serial, name, .. } = &answered.identity;
+fn described(heard: &Heard, known: &[(String, Identity)]) -> String {
+    let state = heard.state.map(|state| {
+        let word = nmt::word(&nmt::STATES, state);
+        word.map_or_else(|| format!("unknown state {state}"), ToOwned::to_owned)
+    });
+    let identity = match &heard.answer {
+        Answer::Of(identity) => identity,
+        Answer::None | _ => {
+            let what = if heard.answer == Answer::Two { "answers twice" } else { "does not answer" };
+            let state = state.map_or_else(String::new, |state| format!(", heard: {state}"));
+            return format!("node {}  {what}{state}\n", heard.node);
+        }
+    };
+    let Identity { device_type, vendor, product, revision, serial, name, .. } = identity;
     let of = [
         ("device type", device_type),
         ("vendor", vendor),
@@ -65,8 +86,9 @@ fn described(answered: &Answered, known: &[(String, Identity)]) -> String {
         .filter_map(|(what, number)| number.map(|number| format!("{what} 0x{number:08X}")))
         .collect();
     parts.extend(name.as_ref().map(|name| format!("name \"{name}\"")));
-    let mut text = format!("node {}  {}\n", answered.node, parts.join(", "));
-    let mut fits = known.iter().filter(|(_, identity)| answered.identity.fits(identity)).peekable();
+    parts.extend(state);
+    let mut text = format!("node {}  {}\n", heard.node, parts.join(", "));
+    let mut fits = known.iter().filter(|(_, known)| identity.fits(known)).peekable();
     if fits.peek().is_none() && !known.is_empty() {
         text.push_str("    none of the specifications fits\n");
     }
@@ -133,6 +155,11 @@ fn sign(
     let node = node_id(&args.node).map_err(|diagnostic| report.refuse(diagnostic))?;
     let id = EntryId { index: Index(index), sub: SubIndex(args.group) };
     let mut client = connect(&args.link, report)?;
+    args.confirm.ask(
+        &format!("node {node} is told to {what} ({id})\n"),
+        &format!("let node {node} {what}"),
+        report,
+    )?;
     match client.write(node, id, &signature) {
         Ok(()) => Ok(print(&format!("{done}\n"))),
         Err(error) => {

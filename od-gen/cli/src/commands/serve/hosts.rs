@@ -16,6 +16,8 @@ use super::event::Event;
 
 /// So many bytes wait for a host that does not take them. One by TCP is left then; a terminal loses frames, as adapters do.
 const MOST_WAITING: usize = 1 << 20;
+/// So many clients are there at once: each takes a buffer and two threads.
+const MOST_CLIENTS: usize = 64;
 /// After an error that says nothing of the next client, such as too many open files.
 const PAUSE: Duration = Duration::from_millis(100);
 
@@ -44,8 +46,11 @@ pub(super) struct Hosts {
 }
 
 impl Hosts {
-    /// A client has come.
+    /// A client has come. Where there are too many, it is left at once.
     pub(super) fn welcome(&mut self, stream: TcpStream, events: &SyncSender<Event>) {
+        if self.list.len() >= MOST_CLIENTS {
+            return;
+        }
         let ready = stream.set_nodelay(true).and_then(|()| Ok((stream.try_clone()?, stream.try_clone()?)));
         let Ok((reading, writing)) = ready else { return };
         let (number, events) = (self.number(), events.clone());

@@ -23,7 +23,6 @@ use od_bus::runtime::{self, Bus, Checks, LiveDictionary, VirtualNode};
 use od_bus::slcan::CanFrame;
 use od_bus::trace::{Decoder, Node, What};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::source::SourceMap;
 
 use crate::bus_nodes::BusNodes;
 use crate::exit::ERRORS;
@@ -160,6 +159,11 @@ impl Place {
                 };
                 let listener = TcpListener::bind(address).map_err(cannot)?;
                 let place = listener.local_addr().map_err(cannot)?;
+                if !place.ip().is_loopback() {
+                    report.note(&format!(
+                        "other machines reach {place}, too: whoever does can write to the nodes; 127.0.0.1 is for this machine alone"
+                    ));
+                }
                 hosts::accept(listener, events.clone());
                 Ok(Self::at(format!("tcp:{place}")))
             }
@@ -245,10 +249,10 @@ impl Place {
 /// The devices of the nodes as they are served.
 fn devices(nodes: &BusNodes, report: &Report) -> Result<Vec<(u8, runtime::Device)>, u8> {
     let mut devices = Vec::new();
-    for (id, system, device) in nodes.iter() {
+    for (id, system, device, sources) in nodes.with_sources() {
         let mut diagnostics = Diagnostics::new();
         let made = runtime::device(system, device, &mut diagnostics);
-        report.show(&diagnostics, &SourceMap::new());
+        report.show(&diagnostics, sources);
         devices.push((id, made.ok_or(ERRORS)?));
     }
     Ok(devices)
