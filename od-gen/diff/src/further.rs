@@ -4,11 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::ascii::transliterate;
 use od_spec::eds::{Owner, owner};
-use od_spec::model::{EntryId, Fact, Further, FurtherSection, KeyValue, Module, Object, SubIndex};
+use od_spec::model::{Fact, Further, FurtherSection, KeyValue, Module};
 
 use super::change::{Change, Class, Consequence, Place};
 use super::objects::{Devices, name};
 use super::rules::{self, Consequences};
+use super::sides::{Values, sides};
 
 impl Devices<'_> {
     /// What differs in it, where both sides can have it.
@@ -63,55 +64,12 @@ impl Devices<'_> {
     }
 }
 
-/// What CANopenEditor keeps of an object that both devices have.
-pub(super) fn editor(old: &Object, new: &Object) -> Vec<Change> {
-    let of_object = |object: &Object| {
-        let notes = object.editor.iter().flat_map(|notes| notes.of_object());
-        notes.map(|(property, value)| (property.name(), value.to_owned())).collect::<BTreeMap<_, _>>()
-    };
-    let of_entry = |object: &Object, sub: SubIndex| {
-        let (property, word) = object.editor.as_ref()?.of_entry(sub)?;
-        Some((property.name(), word.to_owned()))
-    };
-    let own = pairs(of_object(old), of_object(new)).into_iter();
-    let own = own.map(|(property, values)| (Place::Object(new.index), property, values));
-    let subs = old.entries.iter().map(|entry| entry.sub).filter(|sub| new.entry(*sub).is_some());
-    let of_entries = subs.flat_map(|sub| {
-        let place = Place::entry(EntryId { index: new.index, sub });
-        let both = pairs(of_entry(old, sub), of_entry(new, sub)).into_iter();
-        both.map(move |(property, values)| (place.clone(), property, values)).collect::<Vec<_>>()
-    });
-    let change = |(place, property, (before, after)): (Place, &str, Values)| {
-        let change = Change::of(place, Fact::Further, before, after)?;
-        Some(change.part(property).so(Class::Firmware, "C for CANopenNode is made otherwise"))
-    };
-    own.chain(of_entries).filter_map(change).collect()
-}
-
 const BY_TOOLS: Consequence = Consequence::new(Class::Behaviour, "tools that know the key act otherwise");
-
-/// A value before and after.
-type Values = (Option<String>, Option<String>);
-
-/// Values on both sides, by what has them.
-fn pairs<'n>(
-    old: impl IntoIterator<Item = (&'n str, String)>,
-    new: impl IntoIterator<Item = (&'n str, String)>,
-) -> BTreeMap<&'n str, Values> {
-    let mut values: BTreeMap<&str, Values> = BTreeMap::new();
-    for (name, value) in old {
-        values.entry(name).or_default().0 = Some(value);
-    }
-    for (name, value) in new {
-        values.entry(name).or_default().1 = Some(value);
-    }
-    values
-}
 
 /// The values of keys on both sides; an EDS of ours has them in ASCII.
 fn values<'k>(old: &'k [KeyValue], new: &'k [KeyValue]) -> BTreeMap<&'k str, Values> {
     let in_ascii = |one: &'k KeyValue| (one.key.as_str(), transliterate(&one.value));
-    pairs(old.iter().map(in_ascii), new.iter().map(in_ascii))
+    sides(old.iter().map(in_ascii), new.iter().map(in_ascii))
 }
 
 /// What differs in the keys of whole sections.

@@ -29,6 +29,7 @@
 mod change;
 mod code;
 mod device;
+mod editor;
 mod entries;
 mod further;
 mod manual;
@@ -40,6 +41,7 @@ mod proposal;
 mod relations;
 mod rules;
 mod scope;
+mod sides;
 mod stored;
 mod texts;
 mod types;

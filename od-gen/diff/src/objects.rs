@@ -7,8 +7,8 @@ use od_spec::model::{
 };
 
 use super::change::{Change, Class, Place};
+use super::editor::editor;
 use super::entries::Pair;
-use super::further::editor;
 use super::rules;
 use super::scope::Scope;
 use super::texts::texts;

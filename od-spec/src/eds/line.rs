@@ -106,7 +106,6 @@ impl<'t> Line<'t> {
     }
 
     /// The line under a number, by which its document knows where it is from.
-    #[cfg(feature = "xdd")]
     pub(super) fn numbered(self, number: u32) -> Self {
         Self { start: number, ..self }
     }
