@@ -65,6 +65,11 @@ impl ParameterFiles {
         self.files.iter().rev().find_map(|(_, file)| Some(file.node?.value))
     }
 
+    /// The serial number that the last file states.
+    pub(crate) fn stated_serial(&self) -> Option<u32> {
+        self.files.iter().rev().find_map(|(_, file)| file.serial_number())
+    }
+
     /// Takes what the files say about the node beside its node-ID and its values, the last one over the others.
     pub(crate) fn settle(
         &self,

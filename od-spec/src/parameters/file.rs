@@ -134,6 +134,11 @@ pub fn settings_of_map(map: &Node, diagnostics: &mut Diagnostics) -> Vec<Setting
 }
 
 impl ParameterFile {
+    /// The serial number of the one device that the file is for.
+    pub fn serial_number(&self) -> Option<u32> {
+        self.serial_number.map(|number| number.value)
+    }
+
     /// Says when the file is for another device.
     pub fn check_device(&self, system: &System, device: &Dictionary, diagnostics: &mut Diagnostics) {
         let Some(named) = self.device.as_ref().filter(|named| named.value != device.key) else { return };

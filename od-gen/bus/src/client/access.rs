@@ -1,5 +1,6 @@
 //! SDO and NMT, one access after the other.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::time::Duration;
 
@@ -18,6 +19,10 @@ const NAP: Duration = Duration::from_millis(20);
 const QUIET: clock::Duration = clock::Duration::from_millis(20);
 /// A lost frame is no reason to give up; more of them are.
 const RETRIES: u8 = 1;
+/// The identifiers of boot-up messages and heartbeats begin here.
+const BOOT_UP: u16 = 0x700;
+/// So many frames at most are taken from what has come already.
+const LEFT: usize = 1024;
 
 /// The master of a bus: one access at a time, to any node.
 #[derive(Debug)]
@@ -29,6 +34,8 @@ pub struct Client<B> {
     retries: u8,
     /// Writes that were begun.
     writes: usize,
+    /// Nodes that were heard to start.
+    started: BTreeSet<u8>,
 }
 
 /// Why an access failed.
@@ -163,7 +170,13 @@ impl<B: Bus> Client<B> {
     /// A client on a bus, which waits so long for an answer, and repeats a read once.
     pub fn new(bus: B, timeout: Duration) -> Self {
         let micros = u64::try_from(timeout.as_micros()).unwrap_or(u64::MAX);
-        Self { bus, timeout: clock::Duration::from_micros(micros), retries: RETRIES, writes: 0 }
+        Self {
+            bus,
+            timeout: clock::Duration::from_micros(micros),
+            retries: RETRIES,
+            writes: 0,
+            started: BTreeSet::new(),
+        }
     }
 
     /// The same, which repeats a read so often when a frame was lost or broken.
@@ -266,7 +279,7 @@ impl<B: Bus> Client<B> {
         transfer: &mut impl Transfer,
     ) -> Result<Option<Frame>, AccessError> {
         loop {
-            let heard = self.bus.receive(NAP)?;
+            let heard = self.hear(NAP)?;
             let now = self.now();
             let answer = heard.filter(|frame| frame.id() == channel.answer);
             if let Some(bytes) = answer.and_then(|frame| frame.bytes().map(<[u8]>::len))
@@ -296,7 +309,7 @@ impl<B: Bus> Client<B> {
         let begin = self.now();
         let mut last = begin;
         while self.now() < last + QUIET && self.now() < begin + self.timeout {
-            if self.bus.receive(NAP)?.is_some_and(|frame| frame.id() == channel.answer) {
+            if self.hear(NAP)?.is_some_and(|frame| frame.id() == channel.answer) {
                 last = self.now();
             }
         }
@@ -315,6 +328,31 @@ impl<B: Bus> Client<B> {
         }
     }
 
+    /// The next frame that others sent; who starts is noted.
+    fn hear(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
+        let heard = self.bus.receive(within)?;
+        let node = heard.filter(|frame| frame.bytes() == Some(&[0])).and_then(|frame| {
+            let node = frame.id().get().checked_sub(BOOT_UP)?;
+            u8::try_from(node).ok().filter(|node| (1..=127).contains(node))
+        });
+        self.started.extend(node);
+        Ok(heard)
+    }
+
+    /// The nodes that have started, by their boot-up messages, since the client is there: what they had and did not store is lost.
+    ///
+    /// # Errors
+    /// [`BusError`]: nothing comes any more.
+    pub fn started(&mut self) -> Result<&BTreeSet<u8>, BusError> {
+        // What has come already; on a bus where others talk all the time that has an end, too.
+        for _ in 0..LEFT {
+            if self.hear(Duration::from_millis(1))?.is_none() {
+                break;
+            }
+        }
+        Ok(&self.started)
+    }
+
     /// Gives an NMT command to a node, or with node-ID 0 to all. Nodes do not answer.
     ///
     /// # Errors
@@ -330,9 +368,9 @@ impl<B: Bus> Client<B> {
     /// [`BusError`]: nothing comes any more.
     pub fn booted(&mut self, node: u8, within: Duration) -> Result<bool, BusError> {
         let begin = self.bus.now();
-        let of_node = CanId::new(0x700 + u16::from(node));
+        let of_node = CanId::new(BOOT_UP + u16::from(node));
         while u128::from(self.bus.now().saturating_sub(begin)) < within.as_micros() {
-            let heard = self.bus.receive(NAP)?;
+            let heard = self.hear(NAP)?;
             if heard.is_some_and(|frame| Some(frame.id()) == of_node && frame.bytes() == Some(&[0])) {
                 return Ok(true);
             }

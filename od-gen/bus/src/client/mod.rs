@@ -21,7 +21,7 @@ pub use self::access::{AccessError, Client};
 pub use self::link::{OpenError, SlcanBus};
 pub use self::port::{Manner, Port};
 pub use self::restore::{involved, judged, kept, plan, value};
-pub use self::scan::{Answer, Contradiction, Heard, Identity, recognize, scan};
+pub use self::scan::{Answer, Contradiction, Heard, Identity, Recognized, recognize, scan};
 pub use self::serial::Serial;
 
 /// Where frames go and come from, and what time it is there.

@@ -57,6 +57,8 @@ const DEVICE_TYPE: EntryId = id(0x1000, 0);
 const VENDOR: EntryId = id(0x1018, 1);
 const PRODUCT: EntryId = id(0x1018, 2);
 const NAME: EntryId = id(0x1008, 0);
+const REVISION: EntryId = id(0x1018, 3);
+const SERIAL: EntryId = id(0x1018, 4);
 /// What tells devices apart.
 const TELLING: [EntryId; 3] = [DEVICE_TYPE, VENDOR, PRODUCT];
 
@@ -72,8 +74,8 @@ impl Identity {
             device_type: raw(DEVICE_TYPE),
             vendor: raw(VENDOR),
             product: raw(PRODUCT),
-            revision: raw(id(0x1018, 3)),
-            serial: raw(id(0x1018, 4)),
+            revision: raw(REVISION),
+            serial: raw(SERIAL),
             name: match device.entry(NAME).and_then(|entry| entry.default.as_ref()) {
                 Some(Value::Text(text)) => Some(text.clone()),
                 _ => None,
@@ -102,24 +104,39 @@ impl Identity {
             DEVICE_TYPE => self.device_type,
             VENDOR => self.vendor,
             PRODUCT => self.product,
+            REVISION => self.revision,
+            SERIAL => self.serial,
             _ => None,
         }
     }
 }
 
-/// A number of a node that is another one in the dictionary of its device.
+/// A number of a node that is another one than was stated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Contradiction {
-    /// Device type, vendor or product code.
+    /// Device type, or a number of the identity.
     pub id: EntryId,
     /// What the node says.
     pub told: u32,
-    /// What the dictionary states.
+    /// What is stated of it.
     pub stated: u32,
 }
 
-/// Asks a node whether it is the device of a dictionary: before values are taken for what that dictionary says they are.
+/// What a node says of itself, beside what is stated of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Recognized {
+    /// It can be the device; it does not tell, or tells as 0, its revision or serial number, which are stated.
+    Fits {
+        /// Which of the two.
+        untold: Vec<EntryId>,
+    },
+    /// It is another one.
+    Contradicts(Contradiction),
+}
+
+/// Asks a node whether it is the device of a dictionary, with a serial number where one is known: before values are taken for what that
+/// dictionary says they are.
 ///
 /// # Errors
 /// [`AccessError`], but for a number that the node refuses to tell.
@@ -127,19 +144,28 @@ pub fn recognize<B: Bus>(
     client: &mut Client<B>,
     node: u8,
     device: &Dictionary,
-) -> Result<Option<Contradiction>, AccessError> {
-    let stated = Identity::of(device);
-    for (id, number) in stated.stated() {
+    serial: Option<u32>,
+) -> Result<Recognized, AccessError> {
+    let mut stated = Identity::of(device);
+    stated.serial = serial;
+    let single = [REVISION, SERIAL].into_iter();
+    let single = single.filter_map(|id| Some((id, stated.number(id).filter(|number| *number != 0)?)));
+    let mut untold = Vec::new();
+    for (id, number) in stated.stated().chain(single) {
         let told = match client.read(node, id) {
             Ok(bytes) => bytes.try_into().map(u32::from_le_bytes).ok(),
             Err(error) if error.is_of_entry() => None,
             Err(error) => return Err(error),
         };
-        if let Some(told) = told.filter(|told| *told != number) {
-            return Ok(Some(Contradiction { id, told, stated: number }));
+        match (told, TELLING.contains(&id)) {
+            (None | Some(0), false) => untold.push(id),
+            (Some(told), _) if told != number => {
+                return Ok(Recognized::Contradicts(Contradiction { id, told, stated: number }));
+            }
+            (None | Some(_), _) => {}
         }
     }
-    Ok(None)
+    Ok(Recognized::Fits { untold })
 }
 
 /// What was heard at a node-ID.
@@ -205,8 +231,8 @@ fn identity<B: Bus>(client: &mut Client<B>, node: u8) -> Result<Identity, BusErr
         device_type: read(DEVICE_TYPE)?,
         vendor: read(VENDOR)?,
         product: read(PRODUCT)?,
-        revision: read(id(0x1018, 3))?,
-        serial: read(id(0x1018, 4))?,
+        revision: read(REVISION)?,
+        serial: read(SERIAL)?,
         name,
     })
 }

@@ -122,6 +122,16 @@ fn a_reset_brings_a_boot_up_message() {
 }
 
 #[test]
+fn a_node_that_starts_while_another_is_talked_to_is_noted() {
+    with_lamps(|_, client| {
+        assert!(client.started().unwrap().is_empty());
+        client.command(129, 6).unwrap();
+        client.read(5, id(0x2000)).unwrap();
+        assert_eq!(*client.started().unwrap(), BTreeSet::from([6]));
+    });
+}
+
+#[test]
 fn a_scan_finds_who_is_there() {
     with_lamps(|system, client| {
         let found = scan(client, Duration::from_millis(100)).unwrap();

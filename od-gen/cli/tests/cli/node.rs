@@ -384,3 +384,27 @@ fn a_text_that_no_dcf_holds_is_kept_and_given_back() {
     ];
     assert_snapshot!("node-texts", said.concat());
 }
+
+/// Devices of one kind are told apart by their serial numbers: a backup knows whose it is.
+#[test]
+fn a_node_with_another_serial_number_or_revision_is_left_alone() {
+    let with = |number: u32| {
+        let serial = format!("objects:\n  0x1018: {{from: cia301, record: {{4: {{default: {number}}}}}}}\n");
+        HEATER.replace("objects:\n", &serial)
+    };
+    let first = Bus::of("node-serial", "heater.od.yaml", &with(4711));
+    let second = Bus::of("node-serial-2", "heater.od.yaml", &with(4712));
+    let none = Bus::of("node-serial-0", "heater.od.yaml", &with(0));
+    let mut said = vec![first.node("backup", &["--out", "kept.yaml"])];
+    let kept = fs::read_to_string(first.scratch.0.join("kept.yaml")).unwrap();
+    assert!(kept.contains("serial-number: 0x0000_1267\n"), "{kept}");
+    said.push(first.node("restore", &["kept.yaml"]));
+    for bus in [&second, &none] {
+        bus.scratch.file("kept.yaml", &kept);
+        said.push(bus.node("restore", &["kept.yaml"]));
+    }
+    said.push(second.node("compare", &["kept.yaml", "--any-device"]));
+    second.scratch.file("newer.od.yaml", HEATER.replace("0x00010002", "0x00020001"));
+    said.push(second.run(&["read", "newer.od.yaml", "--node", "5", "2004"]));
+    assert_snapshot!("node-serial", said.concat());
+}

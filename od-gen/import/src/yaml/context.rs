@@ -15,13 +15,9 @@ use super::remarks::{Remarks, Repair};
 pub(super) struct Style {
     /// Libraries that it uses.
     pub libraries: Vec<Arc<Library>>,
-    /// Whether features bring the objects that are just as a library has them.
-    pub features: bool,
-    /// Whether common keys stand once, and PDOs under `pdos:`.
+    /// Whether common keys stand once, features bring objects, and PDOs stand under `pdos:`.
     pub short: bool,
-    /// Objects that are written as if there were no short forms.
-    pub in_full: BTreeSet<Index>,
-    /// PDOs whose parameter objects are written.
+    /// PDOs whose parameter objects are written, as no key under `pdos:` says what they have.
     pub pdos_in_full: BTreeSet<(Direction, u16)>,
 }
 

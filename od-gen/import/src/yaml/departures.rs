@@ -2,7 +2,7 @@
 
 use od_spec::LibraryObject;
 use od_spec::model::{
-    Author, Entry, EntryId, Fact, Index, NamedType, Object, ObjectKind, SubIndex, Text, TypeKind,
+    Author, Entry, EntryId, Fact, Index, NamedType, Object, ObjectKind, SubIndex, Text, TypeKind, Value,
 };
 
 use super::compare::same_named;
@@ -11,6 +11,7 @@ use super::entry::{self, Keys};
 use super::fold::{self, Folded};
 use super::node::{Item, Node, Spot};
 use super::objects::{facts, key, links_of, single, with_links};
+use super::value;
 
 /// `{from: NAME, …}` with what differs; `None` where no library has the object, or has more than the object could undo. What the
 /// model leaves open – units, meanings of bits, texts – may come from the library.
@@ -86,7 +87,7 @@ fn sub0(context: &Context<'_>, object: &Object, below: &Object) -> Option<Vec<It
             Fact::Mapping => Node::plain("none"),
             Fact::Storage => Node::plain("no"),
             Fact::Eds => no_flags(),
-            Fact::Default => super::value::value(object.index, count, count.default.as_ref()?),
+            Fact::Default => value(object.index, count, count.default.as_ref()?),
             Fact::Warning | Fact::About => continue,
             _ => return None,
         };
@@ -104,6 +105,12 @@ fn sub0(context: &Context<'_>, object: &Object, below: &Object) -> Option<Vec<It
 /// `eds:` that says nothing.
 fn no_flags() -> Node {
     Node::Map(vec![Item::new("flags", Node::List(Vec::new()))])
+}
+
+/// What undoes a fact.
+fn neutral() -> impl Iterator<Item = (Fact, Node)> {
+    [(Fact::Mapping, Node::plain("none")), (Fact::Storage, Node::plain("no")), (Fact::Eds, no_flags())]
+        .into_iter()
 }
 
 fn array(
@@ -128,15 +135,29 @@ fn array(
     for element in object.entries.iter().filter(|element| element.sub.0 != 0) {
         let keys = match theirs().find(|one| one.sub == element.sub) {
             Some(one) => differences(context, object.index, element, one)?,
-            None => entry::keys(context, object.index, element),
+            None => {
+                let keys = entry::keys(context, object.index, element);
+                let has = |fact: Fact| {
+                    theirs().any(|one| fold::get(&entry::keys(context, object.index, one), fact).is_some())
+                };
+                neutral()
+                    .filter(|(fact, _)| has(*fact) && fold::get(&keys, *fact).is_none())
+                    .chain(keys.clone())
+                    .collect()
+            }
         };
         list.push((element.sub.0, keys));
     }
-    // What all elements have otherwise is said once.
+    // What all elements have otherwise is said once; but the library may say names and defaults of each, which go before.
     let alike = list.iter().all(|(_, keys)| Some(keys) == list.first().map(|(_, first)| first));
-    let named = list.iter().any(|(_, keys)| fold::get(keys, Fact::Name).is_some());
-    let Folded { common, own } =
-        if alike && !named { fold::elements(list) } else { Folded { common: Vec::new(), own: list } };
+    let is_said = |fact: Fact| list.iter().any(|(_, keys)| fold::get(keys, fact).is_some());
+    let has_defaults = theirs().any(|one| stated_default(one).is_some());
+    let Folded { common, own } = if alike && !is_said(Fact::Name) && !(is_said(Fact::Default) && has_defaults)
+    {
+        fold::elements(list)
+    } else {
+        Folded { common: Vec::new(), own: list }
+    };
     inside.extend(common.into_iter().map(|(fact, node)| Item::new(fact.word(), node)));
     let elements = single(context, object, own, above);
     if !elements.is_empty() {
@@ -175,6 +196,11 @@ fn record(
     Some(items)
 }
 
+/// The default that a library says; what the device fills in is not said by it.
+fn stated_default(below: &Entry) -> Option<&Value> {
+    below.default.as_ref().filter(|_| !below.facts.is_said_by(Fact::Default, Author::Derived))
+}
+
 /// The keys of an entry that the library's entry does not have so; `None` where it has one that cannot be undone.
 fn differences(context: &Context<'_>, index: Index, own: &Entry, below: &Entry) -> Option<Keys> {
     // Where the model names no bits and no unit, they are those of the library.
@@ -182,32 +208,44 @@ fn differences(context: &Context<'_>, index: Index, own: &Entry, below: &Entry) 
     if own.unit.is_none() {
         own.unit.clone_from(&below.unit);
     }
+    // Values with a name of their own cannot be undone.
+    let fits = |raw: i128| own.data_type.range().is_none_or(|(low, high)| (low..=high).contains(&raw));
+    if own.special.is_empty() && !below.special.iter().all(|special| fits(special.value)) {
+        return None;
+    }
     let is_silent = own.named_type.is_none() && own.data_type == below.data_type;
     if let Some(NamedType { kind: TypeKind::Bits(_), .. }) = below.named_type.as_deref().filter(|_| is_silent)
     {
         own.named_type.clone_from(&below.named_type);
     }
     let own = &own;
-    // What the device fills in is not said by the library.
-    let stated = below.default.as_ref().filter(|_| !below.facts.is_said_by(Fact::Default, Author::Derived));
+    let stated = stated_default(below);
     let theirs = entry::keys(context, index, below);
     let condition = |entry: &Entry| entry.writable_when.as_ref().map(|condition| condition.text.clone());
     let mut keys = entry::keys(context, index, own);
-    let differs = |fact: &Fact| match fact {
-        Fact::Name => own.name != below.name,
-        // An enum restricts the values, so that it counts only where the model has it, too.
-        Fact::Type => own.data_type != below.data_type || !same_named(own, below),
-        Fact::Unit => {
-            !own.unit.as_ref().zip(below.unit.as_ref()).is_some_and(|(one, other)| same_unit(other, one))
-        }
-        Fact::Access => (own.access, own.locked) != (below.access, below.locked),
-        Fact::Default => own.default.as_ref() != stated,
-        Fact::LowLimit => own.limits().0 != below.limits().0,
-        Fact::HighLimit => own.limits().1 != below.limits().1,
-        Fact::WriteCondition => condition(own) != condition(below),
-        Fact::Warning => own.warning != below.warning,
-        Fact::About => own.about != below.about,
-        other => fold::get(&theirs, *other) != fold::get(&keys, *other),
+    let id = EntryId { index, sub: own.sub };
+    // Where a rule is broken, it is allowed at what the device says itself.
+    let breaks = |fact: Fact| context.remarks.broken_with.contains(&Spot::EntryFact(id, fact));
+    let differs = |fact: &Fact| {
+        breaks(*fact)
+            || match fact {
+                Fact::Name => own.name != below.name,
+                // An enum restricts the values, so that it counts only where the model has it, too.
+                Fact::Type => own.data_type != below.data_type || !same_named(own, below),
+                Fact::Unit => !own
+                    .unit
+                    .as_ref()
+                    .zip(below.unit.as_ref())
+                    .is_some_and(|(one, other)| same_unit(other, one)),
+                Fact::Access => (own.access, own.locked) != (below.access, below.locked),
+                Fact::Default => own.default.as_ref() != stated,
+                Fact::LowLimit => own.limits().0 != below.limits().0,
+                Fact::HighLimit => own.limits().1 != below.limits().1,
+                Fact::WriteCondition => condition(own) != condition(below),
+                Fact::Warning => own.warning != below.warning,
+                Fact::About => own.about != below.about,
+                other => fold::get(&theirs, *other) != fold::get(&keys, *other),
+            }
     };
     let different: Vec<Fact> = keys.iter().map(|(fact, _)| *fact).filter(differs).collect();
     let has = |fact: Fact| fold::get(&keys, fact).is_some();
@@ -217,15 +255,9 @@ fn differences(context: &Context<'_>, index: Index, own: &Entry, below: &Entry) 
         return None;
     }
     if stated.is_some() && !has(Fact::Default) {
-        more.push((Fact::Default, super::value::value(index, own, own.default.as_ref()?)));
+        more.push((Fact::Default, value(index, own, own.default.as_ref()?)));
     }
-    for (fact, neutral) in
-        [(Fact::Mapping, Node::plain("none")), (Fact::Storage, Node::plain("no")), (Fact::Eds, no_flags())]
-    {
-        if undone(fact) {
-            more.push((fact, neutral));
-        }
-    }
+    more.extend(neutral().filter(|(fact, _)| undone(*fact)));
     if undone(Fact::Special) {
         let mut with_theirs = own.clone();
         with_theirs.special.clone_from(&below.special);

@@ -5,7 +5,7 @@ use od_spec::model::{Date, DateTime, DynamicChannel};
 use super::context::Context;
 use super::eds::EdsDefaults;
 use super::further;
-use super::node::{Item, Node, Spot};
+use super::node::{Item, Node};
 use super::remarks::Broken;
 use super::texts::{one_or_more, words};
 
@@ -24,7 +24,7 @@ pub(super) fn header(context: &Context<'_>, uses: &[String]) -> Vec<Item> {
         if vendor.number != 0 {
             vendor_items.push(Item::new("number", Node::hex32(vendor.number)));
         }
-        items.push(Item::new("vendor", Node::Map(vendor_items)).about(Spot::Vendor));
+        items.push(Item::new("vendor", Node::Map(vendor_items)));
     }
     if !uses.is_empty() {
         items.push(Item::new("uses", Node::List(uses.iter().map(Node::plain).collect())));
@@ -71,7 +71,7 @@ pub(super) fn device(context: &Context<'_>, features: &[String]) -> Item {
         .any(|(.., entry)| entry.default.is_some() && !super::eds::default_shown(entry, EdsDefaults::Safe));
     add("eds-defaults", (context.eds == EdsDefaults::All && differs).then(|| Node::plain("all")));
     let above = context.above_device();
-    let item = Item::new(device.key.clone(), Node::Block(items)).about(Spot::Device);
+    let item = Item::new(device.key.clone(), Node::Block(items));
     Item::new("devices", Node::Block(vec![Item { above, ..item }]))
 }
 

@@ -19,14 +19,9 @@ pub(super) struct Written {
 
 impl Written {
     /// What the text says at a byte: the narrowest part.
-    pub(super) fn spot(&self, at: usize) -> Option<&Spot> {
-        self.spots.get(self.narrowest(at)?).map(|(_, spot)| spot)
-    }
-
-    /// Which of the spots that is.
-    pub(super) fn narrowest(&self, at: usize) -> Option<usize> {
+    pub(super) fn spot(&self, at: usize) -> Option<&(Range<usize>, Spot)> {
         let first = self.spots.partition_point(|(range, _)| range.end <= at);
-        self.spots.get(first..)?.iter().position(|(range, _)| range.start <= at).map(|behind| first + behind)
+        self.spots.get(first..)?.iter().find(|(range, _)| range.start <= at)
     }
 
     /// Adds texts that say nothing by themselves.
@@ -66,7 +61,7 @@ fn block(items: &[Item], indent: usize, out: &mut Written) {
         let start = out.text.len();
         out.push(&[&item.key, ":"]);
         value(&item.value, indent, indent + item.key.chars().count() + 2, out);
-        out.spots.extend(item.spot.clone().map(|spot| (start..out.text.len(), spot)));
+        out.spots.extend(item.spot.map(|spot| (start..out.text.len(), spot)));
         out.text.push('\n');
     }
 }
@@ -126,7 +121,7 @@ fn flow(node: &Node) -> Option<Written> {
                 let start = out.text.len();
                 out.push(&[&item.key, ": "]);
                 out.append(flow(&item.value)?);
-                out.spots.extend(item.spot.clone().map(|spot| (start..out.text.len(), spot)));
+                out.spots.extend(item.spot.map(|spot| (start..out.text.len(), spot)));
             }
             out.text.push('}');
         }
@@ -170,6 +165,8 @@ pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use od_spec::model::Index;
+
     use super::*;
 
     fn numbered(count: usize) -> Node {
@@ -207,13 +204,11 @@ mod tests {
 
     #[test]
     fn the_narrowest_part_is_found() {
-        let inner = Item::new("b", Node::plain(1)).about(Spot::Device);
-        let written = write(&[Item::new("a", Node::Map(vec![inner])).about(Spot::Vendor)]);
+        let (outer, inner) = (Spot::Object(Index(1)), Spot::Object(Index(2)));
+        let item = Item::new("b", Node::plain(1)).about(inner);
+        let written = write(&[Item::new("a", Node::Map(vec![item])).about(outer)]);
         assert_eq!(written.text, "a: {b: 1}\n");
-        assert_eq!(
-            (written.spot(0), written.spot(4), written.spot(8)),
-            (Some(&Spot::Vendor), Some(&Spot::Device), Some(&Spot::Vendor))
-        );
-        assert_eq!(written.spot(9), None);
+        let spots = [0, 4, 8, 9].map(|at| written.spot(at).map(|(_, spot)| *spot));
+        assert_eq!(spots, [Some(outer), Some(inner), Some(outer), None]);
     }
 }

@@ -1,8 +1,8 @@
 //! The keys of an entry.
 
 use od_spec::model::{
-    Access, BitErrors, Dictionary, Entry, Fact, Index, Object, PdoMapping, Role, Storage, SubIndex, System,
-    TypeKind, Value,
+    Access, BitErrors, DataType, Dictionary, Entry, Fact, Index, Object, PdoMapping, Role, Storage, SubIndex,
+    System, TypeKind, Value,
 };
 
 use super::context::Context;
@@ -140,13 +140,9 @@ pub(super) fn sub0(context: &Context<'_>, object: &Object, entry: &Entry) -> Key
         // It is an UNSIGNED8, and has no other keys.
         _ => false,
     };
-    let keys = if entry.unit.is_some() || entry.named_type.is_some() {
-        // Its values are not told in a unit or by name, either.
-        let mut plain = entry.clone();
-        (plain.unit, plain.named_type) = (None, None);
-        keys(context, object.index, &plain)
-    } else {
-        keys(context, object.index, entry)
-    };
+    // Its values are not told in a unit, by name or as those of another type, either.
+    let mut plain = entry.clone();
+    (plain.unit, plain.named_type, plain.data_type) = (None, None, DataType::Unsigned8);
+    let keys = keys(context, object.index, &plain);
     keys.into_iter().filter(|(fact, _)| is_written(*fact)).collect()
 }

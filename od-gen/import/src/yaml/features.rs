@@ -13,14 +13,14 @@ pub(super) struct Chosen {
 }
 
 /// Chooses features of a library whose objects are all exactly there, the largest first; none that would bring nothing new. What
-/// every device has is brought in any case; `wanted` tells whether others are.
-pub(super) fn choose(library: &Library, exact: &BTreeSet<Index>, wanted: bool, chosen: &mut Chosen) {
+/// every device has is brought in any case.
+pub(super) fn choose(library: &Library, exact: &BTreeSet<Index>, chosen: &mut Chosen) {
     let implied = library.features.iter().filter(|feature| feature.implied);
     chosen.objects.extend(implied.flat_map(|feature| &feature.objects).filter(|index| exact.contains(index)));
     let mut candidates: Vec<(BTreeSet<Index>, &Feature)> = library
         .features
         .iter()
-        .filter(|feature| wanted && !feature.implied && !feature.is_counted)
+        .filter(|feature| !feature.implied && !feature.is_counted)
         .filter_map(|feature| Some((brought(library, feature)?, feature)))
         .filter(|(objects, _)| objects.is_subset(exact))
         .collect();

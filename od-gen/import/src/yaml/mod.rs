@@ -28,23 +28,20 @@ mod runs;
 mod scalar;
 mod text;
 mod texts;
+mod trial;
 mod types;
 mod value;
 
-use std::collections::BTreeSet;
 use std::sync::{Arc, LazyLock};
 
 use od_gen::plan::decided;
 use od_gen::rust::Rust;
-use od_spec::diag::{About, Diagnostic, Diagnostics, Severity};
+use od_spec::diag::Diagnostics;
 use od_spec::model::{Dictionary, EntryId, Index, System, Value};
-use od_spec::source::SourceMap;
-use od_spec::{LIBRARIES, Library, NoFiles, compile, library, library_in};
+use od_spec::{LIBRARIES, Library, library, library_in};
 
 use context::Style;
-use emit::Written;
-use mend::{Draft, Effort};
-use node::Spot;
+use mend::Draft;
 pub(crate) use node::{Item, Node};
 pub use options::{Options, Place};
 use remarks::Remarks;
@@ -70,13 +67,6 @@ pub struct Specification {
     /// What the model has and the text does not: parts of a specification that no EDS can hold.
     pub left_out: Vec<String>,
 }
-
-/// Most rounds in which single facts are given up.
-const ROUNDS_FOR_FACTS: usize = 40;
-/// Most rounds in all.
-const ROUNDS: usize = 200;
-/// Most attempts to write short forms.
-const ATTEMPTS: usize = 12;
 
 /// The built-in libraries in English, each read once.
 static BUILT_IN: LazyLock<Vec<Arc<Library>>> =
@@ -132,13 +122,10 @@ pub fn specification(
     names::settle(&mut draft.device, &mut remarks.repairs);
     // What code needs of it, as it is decided for code made from the EDS itself.
     draft.device = decided(&draft.system, &draft.device, &Rust).into_owned();
-    let found = mended(&mut draft, options, &mut remarks)?;
+    draft.settle_counts(&mut remarks.repairs);
+    let (text, found) = trial::proven(&mut draft, options, &mut remarks)?;
     let not_said = compare::differing(&draft.device, &found);
     left_out.extend(not_said.iter().map(|index| format!("facts about {index} for which there are no keys")));
-    let text = match short(&draft, &found, options, &remarks) {
-        Some(written) => written.text,
-        None => plain(&draft, options, &remarks)?,
-    };
     let allowed = remarks.allowed.into_keys().collect();
     Ok(Specification { text, repairs: remarks.repairs, allowed, left_out })
 }
@@ -199,62 +186,6 @@ fn name_device(draft: &mut Draft) {
     }
 }
 
-/// What a text gives: the model of its device, and everything that is said about it.
-fn compiled(written: &Written) -> (Option<Dictionary>, Diagnostics) {
-    let mut sources = SourceMap::new();
-    let root = sources.add("specification.od.yaml", written.text.as_str());
-    let compiled = compile(&mut sources, root, &mut NoFiles);
-    (compiled.system.and_then(|mut system| system.devices.pop()), compiled.diagnostics)
-}
-
-/// The errors among messages.
-fn errors(diagnostics: &Diagnostics) -> Vec<&Diagnostic> {
-    diagnostics.iter().filter(|one| one.severity() == Severity::Error).collect()
-}
-
-/// Changes the model until its plain text can be read, and notes the rules that it breaks; what the text gives. Every rule may
-/// be broken at first, so that one compilation finds all that are.
-fn mended(draft: &mut Draft, options: &Options, remarks: &mut Remarks) -> Result<Dictionary, Diagnostics> {
-    let mut last = Diagnostics::new();
-    for round in 0..ROUNDS {
-        let open = remarks.with_all_rules_allowed();
-        let written = text::write(&draft.system, &draft.device, options, &open, &Style::default());
-        let (found, diagnostics) = compiled(&written);
-        if let Some(found) = found {
-            for finding in &diagnostics {
-                remarks.allow(finding, place(draft, &written, finding));
-            }
-            follow(&mut draft.device, &found);
-            return Ok(found);
-        }
-        let effort = if round < ROUNDS_FOR_FACTS { Effort::Fact } else { Effort::Object };
-        let before = remarks.repairs.len();
-        let mut mended: BTreeSet<usize> = BTreeSet::new();
-        for error in errors(&diagnostics) {
-            // Of several messages about one place, the first may take the others with it.
-            let at = error.labels.first().map(|label| label.span.start as usize);
-            let spot = at.and_then(|at| written.narrowest(at));
-            if spot.is_none_or(|spot| mended.insert(spot)) {
-                remarks.repairs.extend(draft.mend(&written, error, effort));
-            }
-        }
-        last = diagnostics;
-        if remarks.repairs.len() == before {
-            break;
-        }
-    }
-    Err(last)
-}
-
-/// The plain text, where no shorter one says the same.
-fn plain(draft: &Draft, options: &Options, remarks: &Remarks) -> Result<String, Diagnostics> {
-    let written = text::write(&draft.system, &draft.device, options, remarks, &Style::default());
-    match compiled(&written) {
-        (Some(_), _) => Ok(written.text),
-        (None, diagnostics) => Err(diagnostics),
-    }
-}
-
 /// Takes the PDOs as they follow from the parameter objects that are left; they keep their descriptions.
 fn follow(device: &mut Dictionary, found: &Dictionary) {
     let before = std::mem::replace(&mut device.pdos, found.pdos.clone());
@@ -275,8 +206,8 @@ fn is_of_another_profile(device: &Dictionary, library: &Library) -> bool {
     is_profile(&library.name) && library.name != named && BUILT_IN.iter().any(|one| one.name == named)
 }
 
-/// A short text that gives what the plain one gives; `None` where none was found.
-fn short(draft: &Draft, plain: &Dictionary, options: &Options, remarks: &Remarks) -> Option<Written> {
+/// The shortest style in which the text gives what the plain one gives.
+fn shortest(draft: &Draft, remarks: &Remarks) -> Style {
     let has = |index: &Index| draft.device.objects.contains_key(index);
     let usable = |library: &&Arc<Library>| {
         // What every device has that uses it cannot be left out.
@@ -286,57 +217,5 @@ fn short(draft: &Draft, plain: &Dictionary, options: &Options, remarks: &Remarks
             && !is_of_another_profile(&draft.device, library)
     };
     let libraries = built_in(&draft.system.languages).iter().filter(usable).cloned().collect();
-    let mut style = Style { libraries, features: true, short: true, ..Style::default() };
-    for _ in 0..ATTEMPTS {
-        let written = text::write(&draft.system, &draft.device, options, remarks, &style);
-        let (found, diagnostics) = compiled(&written);
-        let wrong: BTreeSet<Index> = match &found {
-            Some(found) => compare::differing(plain, found).into_iter().collect(),
-            None => errors(&diagnostics).iter().filter_map(|error| blamed(draft, &written, error)).collect(),
-        };
-        if found.is_some() && wrong.is_empty() {
-            return Some(written);
-        }
-        if !longer(&mut style, draft, &wrong) {
-            return None;
-        }
-    }
-    None
-}
-
-/// The object that a message is about, wherever it stands.
-fn blamed(draft: &Draft, written: &Written, error: &Diagnostic) -> Option<Index> {
-    error.about.map(About::index).or_else(|| place(draft, written, error))
-}
-
-/// The object in whose text a message stands.
-fn place(draft: &Draft, written: &Written, error: &Diagnostic) -> Option<Index> {
-    let at = error.labels.first()?.span.start as usize;
-    match written.spot(at)? {
-        Spot::Object(index) | Spot::ObjectFact(index, _) => Some(*index),
-        Spot::Entry(id) | Spot::EntryFact(id, _) => Some(id.index),
-        Spot::Pdo(direction, number) => {
-            let pdo =
-                draft.device.pdos.iter().find(|pdo| (pdo.direction, pdo.number) == (*direction, *number));
-            pdo.map(|pdo| Index(pdo.communication_index()))
-        }
-        Spot::Vendor | Spot::Device | Spot::Type(_) | Spot::Unit(_) => None,
-    }
-}
-
-/// Gives up a short form for each object that did not come out; `false` where nothing is left to give up.
-fn longer(style: &mut Style, draft: &Draft, wrong: &BTreeSet<Index>) -> bool {
-    let mut changed = false;
-    for index in wrong {
-        let parameters =
-            |pdo: &&od_spec::model::Pdo| [pdo.communication_index(), pdo.mapping_index()].contains(&index.0);
-        let pdo = draft.device.pdos.iter().find(parameters);
-        let pdo = pdo.is_some_and(|pdo| style.pdos_in_full.insert((pdo.direction, pdo.number)));
-        changed |= pdo || draft.device.objects.contains_key(index) && style.in_full.insert(*index);
-    }
-    if !changed {
-        // Not an object's own fault: features first, then libraries.
-        changed = std::mem::take(&mut style.features) || style.libraries.pop().is_some();
-    }
-    changed
+    Style { libraries, short: true, pdos_in_full: pdo_obstacles::not_said(&draft.device, remarks) }
 }

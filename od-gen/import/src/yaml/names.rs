@@ -111,7 +111,7 @@ fn rename(name: &mut String, now: String, place: Place, repairs: &mut Vec<Repair
 }
 
 /// The front of a text that has at most so many characters in an EDS.
-pub(super) fn shortened(text: &str, longest: usize) -> &str {
+fn shortened(text: &str, longest: usize) -> &str {
     // Characters are transcribed one by one, each for itself.
     let mut length = 0;
     let too_long = |c: char| {
@@ -131,6 +131,6 @@ fn fitting(text: &str, otherwise: impl Fn() -> String) -> String {
 }
 
 /// A text on one line, without control characters.
-pub(super) fn readable(text: &str) -> String {
+fn readable(text: &str) -> String {
     text.replace(char::is_control, " ").trim().to_owned()
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use od_spec::model::{Direction, EntryId, Fact, Index};
+use od_spec::model::{EntryId, Fact, Index};
 
 /// A value.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,12 +40,8 @@ impl PartialEq for Item {
 }
 
 /// What a part of a specification is about.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Spot {
-    /// The maker.
-    Vendor,
-    /// The device.
-    Device,
     /// An object.
     Object(Index),
     /// A fact about an object as a whole.
@@ -54,12 +50,16 @@ pub(crate) enum Spot {
     Entry(EntryId),
     /// A fact about an entry.
     EntryFact(EntryId, Fact),
-    /// A PDO.
-    Pdo(Direction, u16),
-    /// A type, by its name in the model.
-    Type(String),
-    /// A unit, by its name in the model.
-    Unit(String),
+}
+
+impl Spot {
+    /// The object.
+    pub(crate) const fn index(self) -> Index {
+        match self {
+            Self::Object(index) | Self::ObjectFact(index, _) => index,
+            Self::Entry(id) | Self::EntryFact(id, _) => id.index,
+        }
+    }
 }
 
 impl Item {

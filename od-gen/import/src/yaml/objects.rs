@@ -15,7 +15,7 @@ pub(super) fn key(index: Index) -> String {
 /// An object with everything that the model says about it.
 pub(super) fn in_full(context: &Context<'_>, object: &Object) -> Item {
     let mut above = context.above_object(object.index);
-    let fold = context.style.short && !context.style.in_full.contains(&object.index);
+    let fold = context.style.short;
     let items = match object.kind {
         ObjectKind::Var | ObjectKind::Domain => {
             let entries = object.entries.iter();

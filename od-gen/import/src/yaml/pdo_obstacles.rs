@@ -1,19 +1,21 @@
 //! Why a PDO cannot stand under `pdos:`, and has its parameter objects written in full.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::model::{
-    Access, CommunicationParameter, DataType, Direction, Entry, Index, Mapped, Object, ObjectKind, Pdo,
-    PdoTarget, SubIndex,
+    Access, CommunicationParameter, DataType, Dictionary, Direction, Entry, Fact, Index, Mapped, Object,
+    ObjectKind, Pdo, PdoTarget, Role, SubIndex,
 };
 
 use super::context::Context;
 use super::eds::{self, EdsDefaults};
+use super::node::Spot;
 use super::pdo_parameters;
+use super::remarks::Remarks;
 
 /// What `pdos:` has no word for.
-pub(super) fn obstacle(context: &Context<'_>, pdo: &Pdo) -> Option<String> {
-    let object = |index: u16| context.device.objects.get(&Index(index));
+pub(super) fn obstacle(device: &Dictionary, pdo: &Pdo) -> Option<String> {
+    let object = |index: u16| device.objects.get(&Index(index));
     let Some(communication) = object(pdo.communication_index()) else {
         return Some("without communication parameters".to_owned());
     };
@@ -26,7 +28,7 @@ pub(super) fn obstacle(context: &Context<'_>, pdo: &Pdo) -> Option<String> {
         .or_else(|| of_communication_entries(communication))
         .map(of_communication)
         .or_else(|| of_object(mapping).or_else(|| of_mapped_entries(pdo, mapping)).map(of_mapping))
-        .or_else(|| of_map(context, pdo))
+        .or_else(|| of_map(device, pdo))
 }
 
 fn of_object(object: &Object) -> Option<String> {
@@ -86,15 +88,15 @@ fn of_mapped_entries(pdo: &Pdo, object: &Object) -> Option<String> {
 }
 
 /// What `map:` cannot name, and what would have another length there.
-fn of_map(context: &Context<'_>, pdo: &Pdo) -> Option<String> {
+fn of_map(device: &Dictionary, pdo: &Pdo) -> Option<String> {
     let length = |mapped: &Mapped| match mapped.target {
         PdoTarget::Dummy(data_type) => data_type.bits(),
-        PdoTarget::Entry(id) => context.device.entry(id).map(|entry| entry.data_type.bits().unwrap_or(0)),
+        PdoTarget::Entry(id) => device.entry(id).map(|entry| entry.data_type.bits().unwrap_or(0)),
     };
     let is_other = |mapped: &&Mapped| length(mapped) != Some(mapped.bits.into());
     pdo.map.iter().find(is_other).map(|mapped| match mapped.target {
         PdoTarget::Dummy(data_type) => format!("it maps {} bits of {data_type}", mapped.bits),
-        PdoTarget::Entry(id) if context.device.entry(id).is_none() => {
+        PdoTarget::Entry(id) if device.entry(id).is_none() => {
             format!("it maps {id}, which is not there")
         }
         PdoTarget::Entry(id) => format!("it maps {} bits of {id}, which has another length", mapped.bits),
@@ -116,6 +118,34 @@ fn of_entry(entry: &Entry, data_type: DataType, has_value: bool) -> Option<Strin
     }
 }
 
+/// The PDOs with what no key under `pdos:` says: kept otherwise than most parameters are, or breaking a rule with a name or an
+/// access that is said of several PDOs at once, where no single one can be allowed to.
+pub(super) fn not_said(device: &Dictionary, remarks: &Remarks) -> BTreeSet<(Direction, u16)> {
+    let candidates: Vec<&Pdo> = device.pdos.iter().filter(|pdo| obstacle(device, pdo).is_none()).collect();
+    let usual = pdo_parameters::storage(device, &candidates);
+    let is_kept_otherwise = |entry: &Entry| entry.access.is_writable() && entry.stored != usual;
+    let is_other = |pdo: &&Pdo| {
+        let indices = [pdo.communication_index(), pdo.mapping_index()].map(Index);
+        let objects: Vec<&Object> = indices.iter().filter_map(|index| device.objects.get(index)).collect();
+        let is_name = |spot: &Spot| {
+            indices.contains(&spot.index())
+                && matches!(spot, Spot::ObjectFact(_, Fact::Name) | Spot::EntryFact(_, Fact::Name))
+        };
+        objects.iter().flat_map(|object| &object.entries).any(is_kept_otherwise)
+            || objects.iter().any(|object| can_only_change_in_part(object))
+            || remarks.broken_with.iter().any(is_name)
+    };
+    candidates.into_iter().filter(is_other).map(|pdo| (pdo.direction, pdo.number)).collect()
+}
+
+/// Whether mapped entries can be written, and their number cannot.
+fn can_only_change_in_part(object: &Object) -> bool {
+    let mut entries = object.entries.iter().map(|entry| entry.access.is_writable());
+    object.role() == Role::PdoMapping
+        && entries.next() == Some(false)
+        && entries.any(|is_writable| is_writable)
+}
+
 /// What is to be said above the first of the PDOs that stand in full for one reason, by communication parameter object.
 pub(super) fn remarks(context: &Context<'_>) -> BTreeMap<Index, String> {
     let mut by_reason: BTreeMap<(Direction, String), Vec<&Pdo>> = BTreeMap::new();
@@ -123,7 +153,7 @@ pub(super) fn remarks(context: &Context<'_>) -> BTreeMap<Index, String> {
         for pdo in &context.device.pdos {
             let tried = context.style.pdos_in_full.contains(&(pdo.direction, pdo.number));
             let other = || tried.then(|| "they have what no key says".to_owned());
-            if let Some(reason) = obstacle(context, pdo).or_else(other) {
+            if let Some(reason) = obstacle(context.device, pdo).or_else(other) {
                 by_reason.entry((pdo.direction, reason)).or_default().push(pdo);
             }
         }

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use od_spec::model::{
-    Access, CommunicationParameter, DataType, Direction, Entry, Index, Object, Pdo, Role, Storage, SubIndex,
-    Value, usual_pdo_names, usual_pdo_storage,
+    Access, CommunicationParameter, DataType, Dictionary, Direction, Entry, Index, Object, Pdo, Role,
+    Storage, SubIndex, Value, usual_pdo_names, usual_pdo_storage,
 };
 use od_spec::name_pattern::{NamePattern, Numbers};
 
@@ -319,13 +319,20 @@ fn limit_node(entry: &Entry, limit: i128) -> Node {
     }
 }
 
-/// `stored:`: what keeps the parameters of PDOs that can be written, where most have it otherwise than follows from the device.
+/// `stored:`: what keeps the parameters of PDOs that can be written, where it does not follow from the device.
 pub(super) fn stored(context: &Context<'_>, pdos: &[&Pdo]) -> Option<Storage> {
+    let storage = storage(context.device, pdos);
+    (storage != usual_pdo_storage(&context.device.objects)).then_some(storage)
+}
+
+/// What keeps most of the parameters that can be written.
+pub(super) fn storage(device: &Dictionary, pdos: &[&Pdo]) -> Storage {
     let indices = |pdo: &&Pdo| [pdo.communication_index(), pdo.mapping_index()].map(Index);
-    let objects = pdos.iter().flat_map(indices).filter_map(|index| context.device.objects.get(&index));
+    let objects = pdos.iter().flat_map(indices).filter_map(|index| device.objects.get(&index));
     let writable: Vec<&Entry> =
         objects.flat_map(|object| &object.entries).filter(|entry| entry.access.is_writable()).collect();
     let count = |storage: Storage| writable.iter().filter(|entry| entry.stored == storage).count();
-    let usual = usual_pdo_storage(&context.device.objects);
-    [Storage::Communication, Storage::No].into_iter().find(|&other| count(other) > count(usual))
+    let usual = usual_pdo_storage(&device.objects);
+    let others = [Storage::Communication, Storage::No];
+    others.into_iter().find(|&other| count(other) > count(usual)).unwrap_or(usual)
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use od_spec::model::{DataType, Direction, EntryId, Index, Pdo, PdoTarget, SubIndex, Value};
 
 use super::context::Context;
-use super::node::{Item, Node, Spot};
+use super::node::{Item, Node};
 use super::pdo_obstacles::obstacle;
 use super::pdo_parameters::{self, Parameters};
 use super::scalar::spelled;
@@ -18,7 +18,7 @@ pub(super) fn short<'a>(context: &Context<'a>) -> Vec<&'a Pdo> {
     }
     let in_full = |pdo: &Pdo| context.style.pdos_in_full.contains(&(pdo.direction, pdo.number));
     let pdos = context.device.pdos.iter().filter(|pdo| !in_full(pdo));
-    pdos.filter(|pdo| obstacle(context, pdo).is_none()).collect()
+    pdos.filter(|pdo| obstacle(context.device, pdo).is_none()).collect()
 }
 
 /// The value of `pdos:`.
@@ -89,9 +89,7 @@ fn item(context: &Context<'_>, names: &Names, pdo: &Pdo, parameters: Vec<Item>) 
     items.extend(words(&pdo.about, context.language()).map(|about| Item::new("about", about)));
     let above = [pdo.communication_index(), pdo.mapping_index()].map(Index);
     let above = above.into_iter().flat_map(|index| comments(context, index)).collect();
-    let item =
-        Item::new(pdo.number.to_string(), Node::Map(items)).about(Spot::Pdo(pdo.direction, pdo.number));
-    Item { above, ..item }
+    Item { above, ..Item::new(pdo.number.to_string(), Node::Map(items)) }
 }
 
 /// What is to be said about a parameter object that is not written.

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use od_spec::diag::{Diagnostic, Severity};
 use od_spec::model::{Fact, Index};
 
+use super::node::Spot;
 use super::options::Place;
 
 /// Something that the written specification says otherwise than the model did, because the language would refuse it.
@@ -53,6 +54,8 @@ pub(super) struct Remarks {
     pub repairs: Vec<Repair>,
     /// Rules that the model breaks, by code.
     pub allowed: BTreeMap<&'static str, Broken>,
+    /// What it breaks them with.
+    pub broken_with: BTreeSet<Spot>,
 }
 
 impl Remarks {
@@ -62,20 +65,22 @@ impl Remarks {
             .into_iter()
             .filter(|code| code.severity == Severity::Error && od_spec::can_be_allowed(code));
         let allowed = rules.map(|code| (code.id, Broken { first: code.title.to_owned(), at: None }));
-        Self { repairs: self.repairs.clone(), allowed: allowed.collect() }
+        Self { repairs: self.repairs.clone(), allowed: allowed.collect(), broken_with: BTreeSet::new() }
     }
 
-    /// Allows a rule to be broken, at an object if the finding stands at one. What is no error of a rule needs no leave.
-    pub(super) fn allow(&mut self, finding: &Diagnostic, index: Option<Index>) {
+    /// Allows a rule to be broken, at an object if the finding is about a part of one. What is no error of a rule needs no
+    /// leave.
+    pub(super) fn allow(&mut self, finding: &Diagnostic, spot: Option<Spot>) {
         if finding.code.severity != Severity::Error {
             return;
         }
+        self.broken_with.extend(spot);
         let broken = self
             .allowed
             .entry(finding.code.id)
             .or_insert_with(|| Broken { first: finding.message.clone(), at: Some(BTreeSet::new()) });
-        match index {
-            Some(index) => broken.at.iter_mut().for_each(|at| at.extend([index])),
+        match spot {
+            Some(spot) => broken.at.iter_mut().for_each(|at| at.extend([spot.index()])),
             None => broken.at = None,
         }
     }

@@ -79,13 +79,14 @@ fn object_items(context: &Context<'_>, short_pdos: &[&Pdo]) -> (Vec<Item>, Vec<S
         .collect();
     let written: Vec<&Object> =
         context.device.objects.values().filter(|object| !made.contains(&object.index)).collect();
-    let taken: Vec<Option<Item>> = written.iter().map(|object| taken(context, object)).collect();
+    let taken: Vec<Option<Item>> =
+        written.iter().map(|object| departures::from_library(context, object)).collect();
     let exact = written.iter().zip(&taken).filter(|(_, item)| item.as_ref().is_some_and(is_exact));
     let exact: BTreeSet<Index> = exact.map(|(object, _)| object.index).collect();
     let (mut chosen, mut used) = (Chosen::default(), BTreeSet::new());
     for library in &context.style.libraries {
         let before = chosen.objects.len();
-        features::choose(library, &exact, context.style.features, &mut chosen);
+        features::choose(library, &exact, &mut chosen);
         if chosen.objects.len() > before {
             used.insert(library.name.clone());
         }
@@ -112,12 +113,6 @@ fn object_items(context: &Context<'_>, short_pdos: &[&Pdo]) -> (Vec<Item>, Vec<S
     let used =
         context.style.libraries.iter().map(|library| library.name.clone()).filter(|name| used.contains(name));
     (runs::fold(&items), chosen.features, used.collect())
-}
-
-/// The object as a library's, with what differs.
-fn taken(context: &Context<'_>, object: &Object) -> Option<Item> {
-    let wanted = !context.style.in_full.contains(&object.index);
-    wanted.then(|| departures::from_library(context, object)).flatten()
 }
 
 /// Whether an object is just as the library has it, and nothing stands above it.

@@ -3,7 +3,7 @@
 use od_spec::model::{BitField, BitUsage, EnumValue, NamedType, Ratio, TypeKind, Unit};
 
 use super::context::Context;
-use super::node::{Item, Node, Spot};
+use super::node::{Item, Node};
 use super::scalar::spelled;
 use super::texts::{named, one_or_more, words};
 
@@ -24,7 +24,7 @@ pub(super) fn units(context: &Context<'_>) -> Vec<Item> {
             unit.formula.as_ref().map(|formula| Item::new("formula", Node::text(formula.text.clone()))),
         );
         items.extend(words(&unit.about, context.language()).map(|about| Item::new("about", about)));
-        Item::new(spelled(&context.unit_name(unit)), Node::Map(items)).about(Spot::Unit(unit.name.clone()))
+        Item::new(spelled(&context.unit_name(unit)), Node::Map(items))
     };
     context.units().iter().map(|unit| item(unit)).collect()
 }
@@ -48,7 +48,7 @@ pub(super) fn types(context: &Context<'_>) -> Vec<Item> {
             }
             TypeKind::Bits(fields) => items.extend(bit_fields(context, fields)),
         }
-        Item::new(spelled(&context.type_name(named)), Node::Map(items)).about(Spot::Type(named.name.clone()))
+        Item::new(spelled(&context.type_name(named)), Node::Map(items))
     };
     context.types().iter().map(|named| item(named)).collect()
 }

@@ -5,6 +5,7 @@
 mod faults;
 mod foreign;
 mod likeness;
+mod obstacles;
 mod pdo_parameters;
 mod random;
 mod shipped;

@@ -154,6 +154,14 @@ pub(crate) fn plant(runner: &mut Runner) -> Result<(), Failure> {
         .try_for_each(|script| runner.run(Command::new(&python).args([script, "--odgen"]).arg(&odgen)))
 }
 
+/// What the commands make of DCF files, with and without values and a node-ID, compared with what python-canopen reads of them.
+pub(crate) fn values_of_nodes(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let odgen = beside("odgen")?;
+    let arguments = ["tests/readers/node_values.py", "--self-test", "tests/readers/nodes", "--odgen"];
+    runner.run(Command::new(&python).args(arguments).arg(&odgen))
+}
+
 /// The Python that the readers are installed for, if that could be done.
 fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     let environment = root().join(VENV);

@@ -106,7 +106,7 @@ pub(crate) struct OneNodeArgs {
     #[arg(long, value_name = "NAME")]
     pub site: Option<String>,
 
-    /// Go on with a node that says by its device type, vendor or product that it is another device
+    /// Go on with a node that says by its device type, vendor, product, revision or serial number that it is another one
     #[arg(long)]
     pub any_device: bool,
 

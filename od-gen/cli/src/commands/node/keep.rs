@@ -16,7 +16,8 @@ use od_spec::{Assigned, Commissioning, Layer, ParameterValues, assign_layers, ru
 use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs};
 use super::confirm::{Change, ConfirmArgs, preview};
 use super::doubt::{Presence, Unwritten, sent};
-use super::{Described, Target, on_the_bus, reach};
+use super::reach::SERIAL_NUMBER;
+use super::{Described, Target, has_started, on_the_bus, reach};
 use crate::exit::{DIFFERS, ERRORS, SUCCESS};
 use crate::output::{forced, keep};
 use crate::progress::Progress;
@@ -122,6 +123,7 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
     })?;
     let mut client = reach(&args.node, target, report)?;
     let written = parameters_of(&mut client, args, target, described.sources(), report)?;
+    has_started(&mut client, target, report)?;
     let artifact =
         Artifact { path: name.to_owned(), bytes: written.text.into_bytes(), purpose: String::new() };
     let directory = args.out.parent().unwrap_or(Path::new(""));
@@ -148,6 +150,7 @@ pub(super) fn parameters_of<B: Bus>(
     // Nobody has asked the adapter.
     node.bit_rate = args.node.link.bit_rate.unwrap_or(0);
     node.values = had.values;
+    node.serial_number = serial_number(client, target, report)?;
     let untold = had.untold.iter().map(|(id, why)| format!("{}: {why}", target.words().entry(*id)));
     let about = About {
         system: target.system,
@@ -163,6 +166,22 @@ pub(super) fn parameters_of<B: Bus>(
         }
     }
     Ok(written)
+}
+
+/// The serial number by which a backup knows its node again; 0 says that there is none.
+fn serial_number<B: Bus>(
+    client: &mut Client<B>,
+    target: Target<'_>,
+    report: &Report,
+) -> Result<Option<u32>, u8> {
+    if target.device.entry(SERIAL_NUMBER).is_none() {
+        return Ok(None);
+    }
+    match client.read(target.id, SERIAL_NUMBER) {
+        Ok(bytes) => Ok(bytes.try_into().map(u32::from_le_bytes).ok().filter(|number| *number != 0)),
+        Err(error) if error.is_of_entry() => Ok(None),
+        Err(error) => Err(report.refuse(target.failed("read", SERIAL_NUMBER, &error))),
+    }
 }
 
 /// `1 value`, `2 values`.
@@ -193,7 +212,9 @@ pub(super) fn beside<'a>(
     if diagnostics.has_errors() {
         shown_errors(&diagnostics, &sources, report)?;
     }
-    let target = target_of(&files)?;
+    let mut target = target_of(&files)?;
+    // The plant says whom the machine has; a file, whose values it holds.
+    target.serial = target.serial.or_else(|| files.stated_serial());
     if let Some(stated) = files.stated_node().filter(|stated| *stated != target.id) {
         report.note(&format!("{} is of node {stated}, and this is node {}", shown(&file), target.id));
     }
@@ -301,7 +322,10 @@ fn with_file(args: &NodeFileArgs, work: WithFile<'_>, report: &Report) -> Result
     }
     let target_of = |files: &ParameterFiles| described.target(&args.node, Some(files), report);
     let beside = beside(described.sources(), args.file.clone(), target_of, report)?;
-    work.with(&mut reach(&args.node, beside.target, report)?, &beside, report)
+    let mut client = reach(&args.node, beside.target, report)?;
+    let code = work.with(&mut client, &beside, report)?;
+    has_started(&mut client, beside.target, report)?;
+    Ok(code)
 }
 
 fn compared<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report) -> Result<u8, u8> {

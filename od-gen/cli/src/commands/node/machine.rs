@@ -14,7 +14,7 @@ use od_spec::source::SourceMap;
 
 use super::args::{NodeBackupArgs, NodeFileArgs, OneNodeArgs};
 use super::keep::{WithFile, beside, kept_line, parameters_of};
-use super::{Target, connect, is_meant};
+use super::{Target, connect, has_started, is_meant};
 use crate::exit::{DIFFERS, SUCCESS, USAGE};
 use crate::output::{forced, keep};
 use crate::plant_file;
@@ -36,13 +36,20 @@ struct Node {
     key: String,
     /// The name of its files, without their ending.
     stem: String,
+    serial: Option<u32>,
     system: Arc<System>,
     device: Arc<Dictionary>,
 }
 
 impl Node {
     fn target(&self) -> Target<'_> {
-        Target { id: self.id, position: Some(&self.position), system: &self.system, device: &self.device }
+        Target {
+            id: self.id,
+            position: Some(&self.position),
+            serial: self.serial,
+            system: &self.system,
+            device: &self.device,
+        }
     }
 
     fn file(&self) -> String {
@@ -64,6 +71,7 @@ impl Machine {
                 position: node.position.clone(),
                 key: device.key.clone(),
                 stem: stem(&plant, node),
+                serial: node.serial.map(|serial| serial.value),
                 system: Arc::clone(&device.system),
                 device: Arc::clone(&device.dictionary),
             });
@@ -107,6 +115,11 @@ impl Machine {
                 Err(failed) => code = worse(code, failed),
             }
         }
+        for target in self.chosen(&args.node, report)?.into_iter().map(Node::target) {
+            if let Err(failed) = has_started(&mut client, target, report) {
+                code = worse(code, failed);
+            }
+        }
         if code != SUCCESS {
             report.note(
                 "no file was written, as not every node tells what it has; `--node ID` backs up a single one",
@@ -141,7 +154,7 @@ impl Machine {
             return Err(code);
         }
         let mut client = connect(&args.node.link, report)?;
-        let (mut well, mut differing, mut states) = (0, 0, String::new());
+        let mut outcomes = Vec::new();
         for beside in &all {
             let writes = client.writes();
             let one = is_meant(&mut client, &args.node, beside.target, report)
@@ -151,19 +164,36 @@ impl Machine {
             if one == USAGE {
                 return Err(USAGE);
             }
+            let state = state(one, work.done(), client.writes() - writes);
+            outcomes.push((beside.target, one, state));
+        }
+        // One that was done with first may have started again while others were.
+        let (mut well, mut differing, mut started, mut states) = (0, 0, Vec::new(), String::new());
+        for (target, one, state) in outcomes {
+            let (one, state) = match has_started(&mut client, target, report) {
+                Ok(()) => (one, state),
+                Err(failed) => {
+                    started.push(target.name());
+                    (worse(one, failed), "started again in the middle".to_owned())
+                }
+            };
             well += usize::from(one == SUCCESS);
             differing += usize::from(one == DIFFERS);
             code = worse(code, one);
-            let state = state(one, work.done(), client.writes() - writes);
-            let _ = writeln!(states, "  {}  {state}", beside.target.name());
+            let _ = writeln!(states, "  {}  {state}", target.name());
         }
+        let again = if started.is_empty() {
+            String::new()
+        } else {
+            format!("; started again in the middle: {}", started.join(", "))
+        };
         let differ = match differing {
             0 => String::new(),
             1 => ", 1 differs".to_owned(),
             count => format!(", {count} differ"),
         };
         let (name, done) = (&self.name, work.done());
-        let line = format!("{name}: {} of {} nodes {done}{differ}\n", well + differing, all.len());
+        let line = format!("{name}: {} of {} nodes {done}{differ}{again}\n", well + differing, all.len());
         let is_well = matches!(code, SUCCESS | DIFFERS);
         Ok(worse(code, print(&if is_well { line } else { line + &states })))
     }

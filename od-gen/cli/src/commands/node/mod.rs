@@ -27,7 +27,7 @@ use crate::settings::ParameterFiles;
 pub(crate) use args::NodeArgs;
 use args::{NodeCommand, OneNodeArgs};
 use machine::Machine;
-use reach::{connect, is_meant, reach};
+use reach::{connect, has_started, is_meant, reach};
 
 pub(crate) fn run(args: &NodeArgs, directory: &Path, report: &Report) -> u8 {
     let done = match &args.command {
@@ -64,6 +64,8 @@ struct Target<'a> {
     id: u8,
     /// Where it is on its machine.
     position: Option<&'a str>,
+    /// Its serial number, where the plant or a parameter file states one.
+    serial: Option<u32>,
     system: &'a System,
     device: &'a Dictionary,
 }
@@ -120,7 +122,7 @@ impl Described {
             }
             None => device,
         };
-        Ok(Target { id, position: None, system, device })
+        Ok(Target { id, position: None, serial: None, system, device })
     }
 }
 

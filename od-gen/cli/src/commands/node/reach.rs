@@ -4,16 +4,21 @@ use std::net::{TcpStream, ToSocketAddrs as _};
 use std::path::Path;
 use std::time::Duration;
 
-use od_bus::client::{Bus, Client, Contradiction, Manner, OpenError, Port, SlcanBus, recognize};
+use od_bus::client::{Bus, Client, Contradiction, Manner, OpenError, Port, Recognized, SlcanBus, recognize};
 use od_spec::diag::{Diagnostic, codes};
+use od_spec::model::{EntryId, Index, SubIndex};
 
 use super::args::{LinkArgs, OneNodeArgs};
+use super::network::broken;
 use super::{Target, helped};
 use crate::link::{Link, Side};
 use crate::report::Report;
 
 /// A bus, however it is reached.
 pub(super) type AnyBus = Box<dyn Bus>;
+
+/// 1018h.4.
+pub(super) const SERIAL_NUMBER: EntryId = EntryId { index: Index(0x1018), sub: SubIndex(4) };
 
 /// An adapter that takes no connection for so long is not there.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -35,17 +40,31 @@ pub(super) fn is_meant<B: Bus>(
     if args.any_device {
         return Ok(());
     }
-    let found = recognize(client, target.id, target.device).map_err(|error| {
+    let found = recognize(client, target.id, target.device, target.serial).map_err(|error| {
         let node = target.position.map_or_else(|| format!("node {}", target.id), |_| target.name());
         let message = format!("cannot ask {node} what it is: {error}");
         report.refuse(helped(Diagnostic::without_place(codes::ACCESS_FAILED, message), &error))
     })?;
     match found {
-        None => Ok(()),
-        Some(Contradiction { id, told, stated, .. }) => {
+        Recognized::Fits { untold } => {
+            for id in untold {
+                report.note(&format!(
+                    "{} does not tell {}: whether it is the one that is meant is not known",
+                    target.name(),
+                    target.words().entry(id)
+                ));
+            }
+            Ok(())
+        }
+        Recognized::Contradicts(Contradiction { id, told, stated, .. }) => {
             let entry = target.words().entry(id);
+            let (is, whose) = if id == SERIAL_NUMBER {
+                ("another", "stated for it")
+            } else {
+                ("no", "in the specification")
+            };
             let message = format!(
-                "node {} is no `{}`: {entry} is 0x{told:08X} there, 0x{stated:08X} in the specification",
+                "node {} is {is} `{}`: {entry} is 0x{told:08X} there, 0x{stated:08X} {whose}",
                 target.id, target.device.key
             );
             Err(report.refuse(Diagnostic::without_place(codes::OTHER_DEVICE, message).help(
@@ -53,6 +72,21 @@ pub(super) fn is_meant<B: Bus>(
             )))
         }
     }
+}
+
+/// The exit code, after a message, where a node has started since the client is there: what it had may be half from before.
+pub(super) fn has_started<B: Bus>(
+    client: &mut Client<B>,
+    target: Target<'_>,
+    report: &Report,
+) -> Result<(), u8> {
+    let started = client.started().map_err(|error| report.refuse(broken(&error)))?;
+    if !started.contains(&target.id) {
+        return Ok(());
+    }
+    let message = format!("{} started again in the middle", target.name());
+    let help = "find out why, and repeat the command: what the node had not stored is lost";
+    Err(report.refuse(Diagnostic::without_place(codes::ACCESS_FAILED, message).help(help)))
 }
 
 /// Connects to a bus, with a client of its nodes.
