@@ -26,8 +26,12 @@ struct Bus {
 
 impl Bus {
     fn new(name: &str, to_nodes: Change, from_nodes: Change) -> Self {
+        Self::of(name, HEATER, to_nodes, from_nodes)
+    }
+
+    fn of(name: &str, specification: &str, to_nodes: Change, from_nodes: Change) -> Self {
         let scratch = Scratch::new(name);
-        scratch.file("heater.od.yaml", HEATER);
+        scratch.file("heater.od.yaml", specification);
         let served = Served::start(&scratch, &["heater.od.yaml", "--node", "5"], Stdio::null());
         let relay = Relay::new(served.address(), to_nodes, from_nodes);
         Self { _served: served, relay, scratch }
@@ -133,6 +137,21 @@ fn a_write_without_an_answer_is_read_back_and_not_repeated() {
     lost.node("write", &["--yes", "2000=30.0 °C"]);
     said.push(lost.node("restore", &["--yes", "low.yaml"]));
     assert_snapshot!("dirt-write", said.concat());
+}
+
+#[test]
+fn a_monitor_asks_on_after_a_malformed_answer() {
+    let asked = Arc::new(AtomicUsize::new(0));
+    let counted = Arc::clone(&asked);
+    let counts = Box::new(move |line: &str| {
+        counted.fetch_add(usize::from(line.starts_with("t605840171000")), Ordering::SeqCst);
+        Some(line.to_owned())
+    });
+    let emergency = HEATER.replace("heartbeat producer", "heartbeat producer, emergency");
+    let bus = Bus::of("dirt-monitor", &emergency, counts, begins("t585843141000", "t5858FF141000"));
+    let said = bus.node("monitor", &["--ask", "--for", "0"]);
+    assert!(said.contains("node 5 does not tell 1014h, which is taken as specified"), "{said}");
+    assert_eq!(asked.load(Ordering::SeqCst), 1, "{said}");
 }
 
 /// That a node stores shows in no value.
