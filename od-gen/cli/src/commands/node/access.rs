@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use od_bus::client::{AccessError, Bus, Client, judged};
+use od_bus::client::{Bus, Client, judged};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Dictionary, EntryId, Role, SubIndex, Value};
 use od_spec::source::{SourceMap, Spanned};
@@ -12,7 +12,7 @@ use od_spec::{Commissioning, Layer, SettingNames, assign_layers, nearest, rule_c
 use super::args::{NodeReadArgs, NodeWriteArgs};
 use super::confirm::preview;
 use super::doubt::sent;
-use super::keep::{had, values};
+use super::had::{had, values};
 use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{ERRORS, SUCCESS};
 use crate::report::{Report, print};
@@ -220,16 +220,4 @@ fn send<B: Bus>(
         }
     }
     Ok(SUCCESS)
-}
-
-/// What is said of a write that failed.
-pub(super) fn not_written(target: Target<'_>, id: EntryId, error: &AccessError) -> Diagnostic {
-    let diagnostic = target.failed("write", id, error);
-    let is_locked = target.device.entry(id).is_some_and(|entry| entry.locked);
-    match error {
-        AccessError::Refused(_) if is_locked => {
-            diagnostic.help("the entry is locked: unlock the device for service first")
-        }
-        _ => diagnostic,
-    }
 }

@@ -5,7 +5,6 @@ use od_spec::diag::Diagnostic;
 use od_spec::model::EntryId;
 
 use super::Target;
-use super::access::not_written;
 use crate::report::Report;
 
 /// What is said of a value that a node did not take, or of which nobody knows.
@@ -67,5 +66,17 @@ pub(super) fn sent<B: Bus>(
         Err(unread) => {
             unwritten(Presence::after(&unread), unknown(&format!("it cannot be read back: {unread}")))
         }
+    }
+}
+
+/// What is said of a write that failed.
+fn not_written(target: Target<'_>, id: EntryId, error: &AccessError) -> Diagnostic {
+    let diagnostic = target.failed("write", id, error);
+    let is_locked = target.device.entry(id).is_some_and(|entry| entry.locked);
+    match error {
+        AccessError::Refused(_) if is_locked => {
+            diagnostic.help("the entry is locked: unlock the device for service first")
+        }
+        _ => diagnostic,
     }
 }

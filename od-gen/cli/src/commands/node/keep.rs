@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use od_bus::client::{AccessError, Bus, Client, involved, judged, kept, plan, value};
+use od_bus::client::{Bus, Client, involved, judged, kept, plan};
 use od_gen::Artifact;
 use od_gen::files::Existing;
 use od_import::parameters::{About, ParameterText, write_all};
@@ -16,97 +16,13 @@ use od_spec::{Assigned, Commissioning, Layer, ParameterValues, assign_layers, ru
 use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs};
 use super::confirm::{Change, ConfirmArgs, preview};
 use super::doubt::{Presence, Unwritten, sent};
+use super::had::{Had, had, values, words};
 use super::reach::SERIAL_NUMBER;
 use super::{Described, Target, has_started, on_the_bus, reach};
 use crate::exit::{DIFFERS, ERRORS, SUCCESS};
 use crate::output::{forced, keep};
-use crate::progress::Progress;
 use crate::report::{Report, print, shown};
 use crate::settings::{ParameterFiles, parameter_files};
-
-/// What a node has, and what it does not tell, with the reason.
-pub(super) struct Had {
-    pub(super) values: ParameterValues,
-    untold: Vec<(EntryId, String)>,
-}
-
-/// So many entries that cannot be read are named one by one.
-const NAMED: usize = 4;
-
-impl Had {
-    /// What some writes change, one after the other.
-    pub(super) fn changes(&self, target: Target<'_>, meant: &[(EntryId, Value)]) -> Vec<Change> {
-        let mut now = self.values.clone();
-        let change = |(id, value): &(EntryId, Value)| {
-            let old = now.insert(*id, value.clone());
-            let old = old.map(|old| words(target, *id, &old));
-            Change { id: *id, old, new: words(target, *id, value) }
-        };
-        meant.iter().map(change).collect()
-    }
-
-    /// Says of entries that rules look at, and that the node does not tell, that they are taken to have their defaults.
-    pub(super) fn tell_taken_for_default(
-        &self,
-        target: Target<'_>,
-        judged: &BTreeSet<EntryId>,
-        report: &Report,
-    ) {
-        let untold: Vec<_> = self.untold.iter().filter(|(id, _)| judged.contains(id)).collect();
-        for (id, why) in untold.iter().take(NAMED) {
-            let name = target.words().entry(*id);
-            report.note(&format!(
-                "a rule looks at {name}, which cannot be read ({why}): it is taken to have its default"
-            ));
-        }
-        if untold.len() > NAMED {
-            report.note(&format!("so are {} more entries that cannot be read", untold.len() - NAMED));
-        }
-    }
-}
-
-/// Reads entries; what a node refuses is noted. The exit code after a message where nothing can be read any more.
-pub(super) fn had<B: Bus>(
-    client: &mut Client<B>,
-    target: Target<'_>,
-    ids: impl IntoIterator<Item = EntryId>,
-    report: &Report,
-) -> Result<Had, u8> {
-    let ids: Vec<EntryId> = ids.into_iter().collect();
-    let mut progress = Progress::new("read", "values", ids.len(), report.audience());
-    let had = had_of(client, target, &ids, &mut progress);
-    progress.clear();
-    had.map_err(|(id, error)| report.refuse(target.failed("read", id, &error)))
-}
-
-fn had_of<B: Bus>(
-    client: &mut Client<B>,
-    target: Target<'_>,
-    ids: &[EntryId],
-    progress: &mut Progress,
-) -> Result<Had, (EntryId, AccessError)> {
-    let mut had = Had { values: ParameterValues::new(), untold: Vec::new() };
-    for (at, id) in ids.iter().copied().enumerate() {
-        progress.show(at);
-        let Some(entry) = target.device.entry(id) else { continue };
-        match target.read(client, id) {
-            Ok(bytes) => match value(entry, &bytes) {
-                Some(value) => {
-                    // A formula with the node-ID is what the value means, where it is the default.
-                    let default = entry.default.as_ref().filter(|default| {
-                        let raw = default.integer_for(target.id);
-                        raw.is_some() && raw == value.integer()
-                    });
-                    had.values.insert(id, default.cloned().unwrap_or(value));
-                }
-                None => had.untold.push((id, format!("no value of type {}", entry.data_type.name()))),
-            },
-            Err(error) if !error.is_of_node() => had.untold.push((id, error.to_string())),
-            Err(error) => return Err((id, error)),
-        }
-    }
-    Ok(had)
-}
 
 /// Writes a parameter file of what a node has; none where it does not answer.
 pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
@@ -184,11 +100,6 @@ fn serial_number<B: Bus>(
     }
 }
 
-/// `1 value`, `2 values`.
-pub(super) fn values(count: usize) -> String {
-    format!("{count} value{}", if count == 1 { "" } else { "s" })
-}
-
 /// A parameter file and the node that it is laid beside.
 pub(super) struct Beside<'a> {
     pub(super) target: Target<'a>,
@@ -238,12 +149,6 @@ fn shown_errors(found: &Diagnostics, sources: &SourceMap, report: &Report) -> Re
 /// Whether two values are one on a node.
 fn is_same(one: &Value, other: &Value, node: u8) -> bool {
     one == other || one.integer_for(node).is_some_and(|raw| other.integer_for(node) == Some(raw))
-}
-
-/// A value in words.
-fn words(target: Target<'_>, id: EntryId, value: &Value) -> String {
-    let bytes = target.device.entry(id).and_then(|entry| value.bytes_for(entry.data_type, target.id));
-    bytes.map_or_else(|| "no value".to_owned(), |bytes| target.words().value(id, &bytes))
 }
 
 /// Tells what a node has otherwise than a file, and what it does not tell; how many of each.

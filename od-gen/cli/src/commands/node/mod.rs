@@ -4,6 +4,7 @@ mod access;
 mod args;
 mod confirm;
 mod doubt;
+mod had;
 mod keep;
 mod machine;
 mod monitor;

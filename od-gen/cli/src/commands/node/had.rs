@@ -1,0 +1,107 @@
+//! What a node has in its entries.
+
+use std::collections::BTreeSet;
+
+use od_bus::client::{AccessError, Bus, Client, value};
+use od_spec::ParameterValues;
+use od_spec::model::{EntryId, Value};
+
+use super::Target;
+use super::confirm::Change;
+use crate::progress::Progress;
+use crate::report::Report;
+
+/// What a node has, and what it does not tell, with the reason.
+pub(super) struct Had {
+    pub(super) values: ParameterValues,
+    pub(super) untold: Vec<(EntryId, String)>,
+}
+
+/// So many entries that cannot be read are named one by one.
+const NAMED: usize = 4;
+
+impl Had {
+    /// What some writes change, one after the other.
+    pub(super) fn changes(&self, target: Target<'_>, meant: &[(EntryId, Value)]) -> Vec<Change> {
+        let mut now = self.values.clone();
+        let change = |(id, value): &(EntryId, Value)| {
+            let old = now.insert(*id, value.clone());
+            let old = old.map(|old| words(target, *id, &old));
+            Change { id: *id, old, new: words(target, *id, value) }
+        };
+        meant.iter().map(change).collect()
+    }
+
+    /// Says of entries that rules look at, and that the node does not tell, that they are taken to have their defaults.
+    pub(super) fn tell_taken_for_default(
+        &self,
+        target: Target<'_>,
+        judged: &BTreeSet<EntryId>,
+        report: &Report,
+    ) {
+        let untold: Vec<_> = self.untold.iter().filter(|(id, _)| judged.contains(id)).collect();
+        for (id, why) in untold.iter().take(NAMED) {
+            let name = target.words().entry(*id);
+            report.note(&format!(
+                "a rule looks at {name}, which cannot be read ({why}): it is taken to have its default"
+            ));
+        }
+        if untold.len() > NAMED {
+            report.note(&format!("so are {} more entries that cannot be read", untold.len() - NAMED));
+        }
+    }
+}
+
+/// Reads entries; what a node refuses is noted. The exit code after a message where nothing can be read any more.
+pub(super) fn had<B: Bus>(
+    client: &mut Client<B>,
+    target: Target<'_>,
+    ids: impl IntoIterator<Item = EntryId>,
+    report: &Report,
+) -> Result<Had, u8> {
+    let ids: Vec<EntryId> = ids.into_iter().collect();
+    let mut progress = Progress::new("read", "values", ids.len(), report.audience());
+    let had = had_of(client, target, &ids, &mut progress);
+    progress.clear();
+    had.map_err(|(id, error)| report.refuse(target.failed("read", id, &error)))
+}
+
+fn had_of<B: Bus>(
+    client: &mut Client<B>,
+    target: Target<'_>,
+    ids: &[EntryId],
+    progress: &mut Progress,
+) -> Result<Had, (EntryId, AccessError)> {
+    let mut had = Had { values: ParameterValues::new(), untold: Vec::new() };
+    for (at, id) in ids.iter().copied().enumerate() {
+        progress.show(at);
+        let Some(entry) = target.device.entry(id) else { continue };
+        match target.read(client, id) {
+            Ok(bytes) => match value(entry, &bytes) {
+                Some(value) => {
+                    // A formula with the node-ID is what the value means, where it is the default.
+                    let default = entry.default.as_ref().filter(|default| {
+                        let raw = default.integer_for(target.id);
+                        raw.is_some() && raw == value.integer()
+                    });
+                    had.values.insert(id, default.cloned().unwrap_or(value));
+                }
+                None => had.untold.push((id, format!("no value of type {}", entry.data_type.name()))),
+            },
+            Err(error) if !error.is_of_node() => had.untold.push((id, error.to_string())),
+            Err(error) => return Err((id, error)),
+        }
+    }
+    Ok(had)
+}
+
+/// A value in words.
+pub(super) fn words(target: Target<'_>, id: EntryId, value: &Value) -> String {
+    let bytes = target.device.entry(id).and_then(|entry| value.bytes_for(entry.data_type, target.id));
+    bytes.map_or_else(|| "no value".to_owned(), |bytes| target.words().value(id, &bytes))
+}
+
+/// `1 value`, `2 values`.
+pub(super) fn values(count: usize) -> String {
+    format!("{count} value{}", if count == 1 { "" } else { "s" })
+}
