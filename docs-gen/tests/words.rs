@@ -68,6 +68,29 @@ objects:
 pdos: {lamp: {receive: {1: {map: [level]}}}}
 ";
 
+/// A bus coupler, with modules that bring objects and sub-indices.
+const COUPLER: &str = "\
+od-spec: 1
+title: Coupler
+uses: [cia301]
+devices:
+  coupler:
+    name: Coupler
+    bit-rates: [125]
+    features: [heartbeat producer]
+    eds:
+      created: 2024-02-29 12:00
+      sections:
+        SupportedModules: {NrOfEntries: 1}
+        M1ModuleInfo: {ProductName: 8 inputs, OrderCode: DI8}
+        M1SubExtends: {NrOfEntries: 1, 1: \"0x2000\"}
+        M1SubExt2000: {ParameterName: level, DataType: \"0x0005\", AccessType: ro, Count: 1}
+        M1FixedObjects: {NrOfEntries: 1, 1: \"0x2001\"}
+        M1Fixed2001: {ParameterName: way, ObjectType: \"0x7\", DataType: \"0x0005\", AccessType: rw}
+objects:
+  0x2000: {name: levels, array: {count: 1, name: \"level {n}\", type: unsigned8, access: ro}}
+";
+
 /// A specification, and the texts of all its files.
 struct Specification {
     system: System,
@@ -88,7 +111,8 @@ fn system(name: &str, text: &str) -> Specification {
 fn systems() -> Vec<Specification> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let read = |path: &&str| system(path, &std::fs::read_to_string(root.join(path)).unwrap());
-    SPECIFICATIONS.iter().map(read).chain([system("views", VIEWS), system("lamp", SAVED_TOGETHER)]).collect()
+    let own = [("views", VIEWS), ("lamp", SAVED_TOGETHER), ("coupler", COUPLER)];
+    SPECIFICATIONS.iter().map(read).chain(own.map(|(name, text)| system(name, text))).collect()
 }
 
 /// What stands for a word in a document, to see where templates print it.

@@ -6,8 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-/// The exit code of a program that is interrupted a second time.
-const IMPATIENT: i32 = 130;
+use crate::exit::INTERRUPTED;
 
 /// Whether the user, or the system, wants the command to end.
 #[derive(Debug, Clone)]
@@ -18,10 +17,18 @@ impl Interrupt {
     pub(crate) fn noted() -> Self {
         let wanted = Arc::new(AtomicBool::new(false));
         for signal in [SIGINT, SIGTERM] {
-            let _ = flag::register_conditional_shutdown(signal, IMPATIENT, Arc::clone(&wanted))
+            let _ = flag::register_conditional_shutdown(signal, INTERRUPTED.into(), Arc::clone(&wanted))
                 .and_then(|_| flag::register(signal, Arc::clone(&wanted)));
         }
         Self(wanted)
+    }
+
+    /// [`noted`](Self::noted), also of a terminal that is closed: what was begun is to be finished.
+    pub(crate) fn noted_with_hangup() -> Self {
+        let noted = Self::noted();
+        #[cfg(unix)]
+        let _ = flag::register(signal_hook::consts::SIGHUP, Arc::clone(&noted.0));
+        noted
     }
 
     /// Whether it has come.

@@ -192,3 +192,50 @@ sites: {North: {type: flat, machines: {1: {}}}}
     }
     assert_snapshot!("dirt-machine", bus.run(&["restore", "house.yaml", "kept", "--yes"]));
 }
+
+/// An interrupt in the middle of a mapping: the PDO is completed, and what comes behind it is not sent.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_lets_the_step_in_hand_come_to_its_end() {
+    use std::process::{Command, Stdio};
+
+    let command: Arc<std::sync::Mutex<Option<u32>>> = Arc::default();
+    let (process, mut sent) = (Arc::clone(&command), 0);
+    let from_nodes: Change = Box::new(move |line| {
+        // The node has taken the third parameter of the PDO: its mapping is without an entry.
+        sent += usize::from(line.starts_with("t5858600"));
+        if sent == 2 {
+            let id = loop {
+                if let Some(id) = *process.lock().unwrap() {
+                    break id;
+                }
+                std::thread::yield_now();
+            };
+            let id = rustix::process::Pid::from_raw(i32::try_from(id).unwrap()).unwrap();
+            rustix::process::kill_process(id, rustix::process::Signal::INT).unwrap();
+            sent += 1;
+        }
+        Some(line.to_owned())
+    });
+    let bus = Bus::of("dirt-interrupt", crate::node::SENSOR, same(), from_nodes);
+    let settings = ["1800.1=0x80000185", "1A00=0", "1A00.1=0x20010010", "1A00=1", "1800.1=0x185", "flow=7"];
+    let child = Command::new(env!("CARGO_BIN_EXE_odgen"))
+        .args(["node", "write", "heater.od.yaml", "--node", "5", "--yes", "--slcan", &bus.relay.address])
+        .args(settings)
+        .current_dir(&bus.scratch.0)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    *command.lock().unwrap() = Some(child.id());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(code(&output), 130, "{}", stderr(&output));
+    let said = stderr(&output);
+    let unsent: Vec<&str> = said.lines().filter(|line| line.contains("not sent any more")).collect();
+    // The signal may come a write later, and never before the PDO is whole.
+    assert_eq!(unsent, ["note: not sent any more: 2001h flow"], "{said}");
+    let has = bus.node("read", &["1A00", "1800.1", "flow"]);
+    assert!(has.contains("number of mapped entries = 1"), "{has}");
+    assert!(has.contains("= 0x00000185") && has.contains("flow = 0"), "{has}");
+}

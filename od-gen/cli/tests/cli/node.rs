@@ -266,7 +266,7 @@ fn a_bus_is_scanned_and_commanded() {
 }
 
 /// A device whose mappings can be changed.
-const SENSOR: &str = "\
+pub(crate) const SENSOR: &str = "\
 od-spec: 1
 title: Sensor
 uses: [cia301]

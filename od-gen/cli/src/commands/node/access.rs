@@ -13,8 +13,10 @@ use super::args::{NodeReadArgs, NodeWriteArgs};
 use super::confirm::preview;
 use super::doubt::sent;
 use super::had::{had, values};
+use super::hand::{InHand, tell_unsent};
 use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{ERRORS, SUCCESS};
+use crate::interrupt::Interrupt;
 use crate::report::{Report, print};
 
 /// Reads entries. What cannot be read is told, and the others are read all the same.
@@ -189,7 +191,12 @@ fn send<B: Bus>(
     meant: &[(EntryId, Value)],
     report: &Report,
 ) -> Result<u8, u8> {
+    let interrupt = Interrupt::noted_with_hangup();
+    let (mut code, mut in_hand) = (SUCCESS, InHand::new(&interrupt));
     for (at, (id, value)) in meant.iter().enumerate() {
+        if !in_hand.takes(*id) {
+            continue;
+        }
         let entry = target.device.entry(*id);
         let bytes = entry.and_then(|entry| value.bytes_for(entry.data_type, target.id));
         let failed = match bytes {
@@ -202,22 +209,19 @@ fn send<B: Bus>(
             }
             Some(bytes) => match sent(client, target, *id, &bytes, report) {
                 Ok(()) => {
-                    let code = print(&format!("{}  written\n", line(target, *id, &bytes)));
-                    if code != SUCCESS {
-                        return Err(code);
-                    }
+                    // A full disk behind standard output is no reason to leave a PDO switched off.
+                    code = code.max(print(&format!("{}  written\n", line(target, *id, &bytes))));
                     None
                 }
                 Err(unwritten) => Some(*unwritten.why),
             },
         };
         if let Some(diagnostic) = failed {
-            let code = report.refuse(diagnostic);
-            for (id, _) in meant.iter().skip(at + 1) {
-                report.note(&format!("not sent any more: {}", target.words().entry(*id)));
-            }
+            let code = code.max(report.refuse(diagnostic));
+            let unsent: Vec<EntryId> = meant.iter().skip(at + 1).map(|(id, _)| *id).collect();
+            tell_unsent(target, &unsent, report);
             return Err(code);
         }
     }
-    Ok(SUCCESS)
+    in_hand.end(target, report).map(|()| code)
 }

@@ -1,5 +1,6 @@
 //! `odgen node backup`, `compare` and `restore`: the parameters of a node as a file.
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -17,9 +18,11 @@ use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs};
 use super::confirm::{Change, ConfirmArgs, preview};
 use super::doubt::{Presence, Unwritten, sent};
 use super::had::{Had, had, values, words};
+use super::hand::{InHand, pdo_of, tell_unsent};
 use super::reach::SERIAL_NUMBER;
 use super::{Described, Target, has_started, on_the_bus, reach};
 use crate::exit::{DIFFERS, ERRORS, SUCCESS};
+use crate::interrupt::Interrupt;
 use crate::output::{forced, keep};
 use crate::report::{Report, print, shown};
 use crate::settings::{ParameterFiles, parameter_files};
@@ -179,8 +182,8 @@ fn told_differences(target: Target<'_>, meant: &ParameterValues, had: &Had, repo
 #[derive(Clone, Copy)]
 pub(super) enum WithFile<'a> {
     Compare,
-    /// What allows the writes.
-    Restore(&'a ConfirmArgs),
+    /// What allows the writes, and what ends them; Ctrl-C is noted from the first of them on.
+    Restore(&'a ConfirmArgs, &'a OnceCell<Interrupt>),
 }
 
 impl WithFile<'_> {
@@ -188,8 +191,16 @@ impl WithFile<'_> {
     pub(super) const fn done(self) -> &'static str {
         match self {
             Self::Compare => "compared",
-            Self::Restore(ConfirmArgs { dry_run: true, .. }) => "looked at",
-            Self::Restore(_) => "restored",
+            Self::Restore(ConfirmArgs { dry_run: true, .. }, _) => "looked at",
+            Self::Restore(..) => "restored",
+        }
+    }
+
+    /// Whether somebody wants it to end.
+    pub(super) fn is_interrupted(self) -> bool {
+        match self {
+            Self::Compare => false,
+            Self::Restore(_, interrupt) => interrupt.get().is_some_and(Interrupt::is_wanted),
         }
     }
 
@@ -202,7 +213,7 @@ impl WithFile<'_> {
     ) -> Result<u8, u8> {
         match self {
             Self::Compare => compared(client, beside, report),
-            Self::Restore(confirm) => restored(client, beside, confirm, report),
+            Self::Restore(confirm, interrupt) => restored(client, beside, confirm, interrupt, report),
         }
     }
 }
@@ -215,7 +226,7 @@ pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
 /// Writes what a file sets and the node has otherwise, and reads all of it back; the same for the files of a directory and the nodes of a
 /// machine.
 pub(super) fn restore(args: &NodeRestoreArgs, report: &Report) -> Result<u8, u8> {
-    with_file(&args.file, WithFile::Restore(&args.confirm), report)
+    with_file(&args.file, WithFile::Restore(&args.confirm, &OnceCell::new()), report)
 }
 
 fn with_file(args: &NodeFileArgs, work: WithFile<'_>, report: &Report) -> Result<u8, u8> {
@@ -255,6 +266,7 @@ fn restored<B: Bus>(
     client: &mut Client<B>,
     beside: &Beside<'_>,
     confirm: &ConfirmArgs,
+    interrupt: &OnceCell<Interrupt>,
     report: &Report,
 ) -> Result<u8, u8> {
     let Beside { target, file, sources, layers, meant } = beside;
@@ -292,7 +304,8 @@ fn restored<B: Bus>(
         let question = format!("write {} of {}", values(changes.len()), target.name());
         confirm.ask(&preview(target, &changes), &question, report)?;
     }
-    let code = written(client, target, &writes, report)?;
+    let interrupt = interrupt.get_or_init(Interrupt::noted_with_hangup);
+    let code = written(client, target, &writes, interrupt, report)?;
     let after = had(client, target, meant.keys().copied(), report)?;
     let (count, unread) = told_differences(target, meant, &after, report);
     let code = code.max(unread);
@@ -374,26 +387,25 @@ impl HeldBack<'_> {
 /// Verify configuration (1020h): what a configuration tool leaves behind when everything is written.
 const CONFIGURATION_DATE: Index = Index(0x1020);
 
-/// The PDO that an object is a parameter of, by the index of its communication parameters; mappings stand 200h behind them.
-fn pdo_of(index: Index) -> Option<Index> {
-    Role::of(index).is_pdo_parameter().then_some(Index(index.0 & !0x200))
-}
-
 /// Carries out writes. One that is refused is told, and of the next ones those are tried that have nothing to do with it; the exit code
 /// where the node is gone.
 fn written<B: Bus>(
     client: &mut Client<B>,
     target: Target<'_>,
     writes: &[Write],
+    interrupt: &Interrupt,
     report: &Report,
 ) -> Result<u8, u8> {
-    let mut code = SUCCESS;
+    let (mut code, mut in_hand) = (SUCCESS, InHand::new(interrupt));
     let mut held_back = HeldBack { target, first: BTreeSet::new(), joined: BTreeSet::new() };
     for (at, write) in writes.iter().enumerate() {
         if held_back.has(write.id) {
             let name = target.words().entry(write.id);
             report.note(&format!("not sent, as it belongs with what was refused: {name}"));
             held_back.add(write.id);
+            continue;
+        }
+        if !in_hand.takes(write.id) {
             continue;
         }
         match sent(client, target, write.id, &write.bytes, report) {
@@ -405,13 +417,12 @@ fn written<B: Bus>(
                 code = code.max(report.refuse(*why));
                 held_back.add(write.id);
                 if node == Presence::Gone {
-                    for write in writes.iter().skip(at + 1) {
-                        report.note(&format!("not sent any more: {}", target.words().entry(write.id)));
-                    }
+                    let unsent: Vec<EntryId> = writes.iter().skip(at + 1).map(|write| write.id).collect();
+                    tell_unsent(target, &unsent, report);
                     return Err(code);
                 }
             }
         }
     }
-    Ok(code)
+    in_hand.end(target, report).map(|()| code)
 }

@@ -15,7 +15,7 @@ use od_spec::source::SourceMap;
 use super::args::{NodeBackupArgs, NodeFileArgs, OneNodeArgs};
 use super::keep::{WithFile, beside, kept_line, parameters_of};
 use super::{Target, connect, has_started, is_meant};
-use crate::exit::{DIFFERS, SUCCESS, USAGE};
+use crate::exit::{DIFFERS, INTERRUPTED, SUCCESS, USAGE};
 use crate::output::{forced, keep};
 use crate::plant_file;
 use crate::report::{Report, node_id, print, shown};
@@ -156,6 +156,10 @@ impl Machine {
         let mut client = connect(&args.node.link, report)?;
         let mut outcomes = Vec::new();
         for beside in &all {
+            if work.is_interrupted() {
+                outcomes.push((beside.target, INTERRUPTED, "not asked any more".to_owned()));
+                continue;
+            }
             let writes = client.writes();
             let one = is_meant(&mut client, &args.node, beside.target, report)
                 .and_then(|()| work.with(&mut client, beside, report))

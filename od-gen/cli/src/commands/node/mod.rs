@@ -5,6 +5,7 @@ mod args;
 mod confirm;
 mod doubt;
 mod had;
+mod hand;
 mod keep;
 mod machine;
 mod monitor;

@@ -1,0 +1,63 @@
+//! Writes that somebody interrupts: the step in hand is finished, and what is not sent any more is told.
+
+use std::collections::BTreeSet;
+
+use od_spec::diag::{Diagnostic, codes};
+use od_spec::model::{EntryId, Index, Role};
+
+use super::Target;
+use crate::exit::INTERRUPTED;
+use crate::interrupt::Interrupt;
+use crate::report::Report;
+
+/// What goes on after an interrupt.
+pub(super) struct InHand<'i> {
+    interrupt: &'i Interrupt,
+    /// PDOs of which a parameter was sent.
+    begun: BTreeSet<Index>,
+    unsent: Vec<EntryId>,
+}
+
+impl<'i> InHand<'i> {
+    pub(super) const fn new(interrupt: &'i Interrupt) -> Self {
+        Self { interrupt, begun: BTreeSet::new(), unsent: Vec::new() }
+    }
+
+    /// Whether an entry is still to be written. After an interrupt only what completes a PDO is: it was switched off first.
+    pub(super) fn takes(&mut self, id: EntryId) -> bool {
+        let pdo = pdo_of(id.index);
+        let goes_on = !self.interrupt.is_wanted() || pdo.is_some_and(|pdo| self.begun.contains(&pdo));
+        if goes_on {
+            self.begun.extend(pdo);
+        } else {
+            self.unsent.push(id);
+        }
+        goes_on
+    }
+
+    /// Says what was not sent; the exit code where that is anything.
+    pub(super) fn end(&self, target: Target<'_>, report: &Report) -> Result<(), u8> {
+        if self.unsent.is_empty() {
+            return Ok(());
+        }
+        tell_unsent(target, &self.unsent, report);
+        let message = format!("{}: interrupted before all was sent", target.name());
+        report.refuse(
+            Diagnostic::without_place(codes::ACCESS_FAILED, message)
+                .help("give the command again; what is written already is not written twice by `restore`"),
+        );
+        Err(INTERRUPTED)
+    }
+}
+
+/// Names what is not sent any more.
+pub(super) fn tell_unsent(target: Target<'_>, unsent: &[EntryId], report: &Report) {
+    for id in unsent {
+        report.note(&format!("{}not sent any more: {}", target.mark(), target.words().entry(*id)));
+    }
+}
+
+/// The PDO that an object is a parameter of, by the index of its communication parameters; mappings stand 200h behind them.
+pub(super) fn pdo_of(index: Index) -> Option<Index> {
+    Role::of(index).is_pdo_parameter().then_some(Index(index.0 & !0x200))
+}
