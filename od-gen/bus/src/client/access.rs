@@ -59,20 +59,26 @@ impl AccessError {
     /// says nothing about the entry; some of them were lost, or came twice.
     pub const fn is_of_entry(&self) -> bool {
         match self {
+            Self::Silent | Self::Wrong(_) | Self::Short(_) | Self::Bus(_) => false,
+            Self::Refused(_) => !self.is_of_frames(),
+        }
+    }
+
+    /// Whether frames of a transfer were lost on their way, or came twice: what the entry holds is to be had on a better bus.
+    pub const fn is_of_frames(&self) -> bool {
+        matches!(
+            self,
             Self::Refused(
                 AbortCode::TOGGLE_BIT
-                | AbortCode::TIMEOUT
-                | AbortCode::COMMAND
-                | AbortCode::BLOCK_SIZE
-                | AbortCode::SEQUENCE
-                | AbortCode::CRC,
+                    | AbortCode::TIMEOUT
+                    | AbortCode::COMMAND
+                    | AbortCode::BLOCK_SIZE
+                    | AbortCode::SEQUENCE
+                    | AbortCode::CRC,
+            ) | Self::Wrong(
+                AbortCode::TOGGLE_BIT | AbortCode::BLOCK_SIZE | AbortCode::SEQUENCE | AbortCode::CRC
             )
-            | Self::Silent
-            | Self::Wrong(_)
-            | Self::Short(_)
-            | Self::Bus(_) => false,
-            Self::Refused(_) => true,
-        }
+        )
     }
 
     /// Whether nobody is there any more: another access is not worth a try.

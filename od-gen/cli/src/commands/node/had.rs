@@ -88,7 +88,10 @@ fn had_of<B: Bus>(
                 }
                 None => had.untold.push((id, format!("no value of type {}", entry.data_type.name()))),
             },
-            Err(error) if !error.is_of_node() => had.untold.push((id, error.to_string())),
+            // What a bad bus kept back is not left out of a file that is taken for whole.
+            Err(error) if !error.is_of_node() && !error.is_of_frames() => {
+                had.untold.push((id, error.to_string()));
+            }
             Err(error) => return Err((id, error)),
         }
     }
