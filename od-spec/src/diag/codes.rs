@@ -123,7 +123,7 @@ codes! {
     NO_COMMON_DEVICE Error "OD0329" "a picture across devices":
         "The entries that a picture names are those of one device: a reader finds them in its tables. Name entries that one device has, or draw two pictures."
     FOLLOWS Error "OD0330" "a key of the EDS that follows from the specification":
-        "`sections:` of a device's `eds:` are for what its EDS has beside what follows: keys such as `SRDOMapping`, keys and sections of a maker, modules. This key or section is made from the specification, which the EDS could then contradict. Remove it here, and say it where the help tells."
+        "`sections:` of a device's `eds:` holds keys and sections that do not follow from the specification, such as `SRDOMapping`, keys of a maker, and modules. This key or section follows from the specification, and the EDS could contradict it. Remove it, and use the key that the help names."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."
     BAD_FORMULA Error "OD0402" "a node-ID formula that is none":
@@ -211,7 +211,7 @@ codes! {
     OTHER_DEVICE Error "OD0717" "a node that is another device":
         "`odgen node` asks a node first what it is: its device type (1000h), vendor (1018h.1), product code (1018h.2) and revision (1018h.3), as far as the specification states them, and its serial number (1018h.4), where the plant or the parameter file does. This node says otherwise. On another device the same indices can mean other things, with other units and limits, so that nothing is read from it or written to it under the names of this one. Name the specification and the device of the node, or the right node-ID; `--any-device` goes on all the same."
     NO_TERMINAL Error "OD0718" "something that needs a terminal":
-        "`odgen serve --watch` draws on the terminal and takes its keys. Standard input and output have to be that terminal, and no file or pipe; a script comes from a file then, and not from standard input. `odgen serve --log` tells every frame in words without a terminal, and `odgen node monitor` tells what changes on any bus. Commands of `odgen node` that change a node show what they are about to do and ask for it at the terminal. In a script they are told before: `--yes` does it, `--dry-run` shows it alone."
+        "`odgen serve --watch` draws on the terminal and takes its keys. Standard input and output have to be that terminal, and no file or pipe; a script comes from a file then, and not from standard input. `odgen serve --log` tells every frame in words without a terminal, and `odgen node monitor` tells what changes on any bus. Commands of `odgen node` that change a node show the changes first and ask at the terminal. Scripts use `--yes`, or `--dry-run` to see the changes only."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
         "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set all the same, so that nobody overwrites factory data by accident. This entry has no lock: a name that is wrong here would leave the entry that was meant without the look at it. Remove it, or name the entry that is locked."
         [Example::parameters(

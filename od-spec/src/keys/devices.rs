@@ -26,7 +26,7 @@ macro_rules! device_keys {
             "features": Shape::List(&Shape::Feature) => features: Vec<Spanned<FeatureChoice>>, "features of the used libraries that the device has; one with channels is given their number", "[heartbeat producer, digital inputs: 16]";
             "any-error": Shape::Map(&ANY_ERROR) => any_error: Option<AnyErrorDecl>, "what holds for every error of the device, said once", "{reset: bit 7 of 6040h from 0 to 1}";
             "canopennode": Shape::MapOf(KeyKind::Indices, &Shape::Map(&NOTES)) => canopennode: Vec<NotesDecl>, "what the stack CANopenNode and CANopenEditor keep of objects, by index", "{0x1400..0x1403: {group: PERSIST_COMM, count: RPDO}}";
-            "eds": Shape::Map(&FILE) => eds: Option<FileDecl>, "what the EDS says about itself, and what it has beside what follows";
+            "eds": Shape::Map(&FILE) => eds: Option<FileDecl>, "what the EDS says about itself, and what does not follow from the specification";
             "eds-defaults": Shape::Choice(&["safe", "own", "all"]) => eds_defaults: Option<Name>, "`safe` withholds the defaults of writable entries that are locked or stored (other than as communication parameters) from the EDS; `own` withholds also those that only a library states; `all` writes every default; safe unless given";
         } }
     };
@@ -83,7 +83,7 @@ macro_rules! file_keys {
             "file-version": U8 => version: Option<Spanned<i128>>, "version of the file; 1 unless given";
             "file-revision": U8 => revision: Option<Spanned<i128>>, "revision of the file; 0 unless given";
             "comments": Shape::List(&Shape::Text) => comments: Option<Vec<Name>>, "lines of `[Comments]`; what the device and its file are about unless given", "[For line 3 only.]";
-            "sections": Shape::MapOf(KeyKind::Name, &Shape::MapOf(KeyKind::Name, &Shape::Text)) => sections: Vec<FileSectionDecl>, "keys and sections that the EDS has beside those that follow, by the names of their sections", "{DeviceInfo: {NG_Slave: 1}, 2001sub1: {SRDOMapping: 1}, Tools: {Items: 1}}";
+            "sections": Shape::MapOf(KeyKind::Name, &Shape::MapOf(KeyKind::Name, &Shape::Text)) => sections: Vec<FileSectionDecl>, "keys that do not follow from the specification, by the names of their sections", "{DeviceInfo: {NG_Slave: 1}, 2001sub1: {SRDOMapping: 1}, Tools: {Items: 1}}";
         } }
     };
 }

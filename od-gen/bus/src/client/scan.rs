@@ -1,6 +1,7 @@
 //! Who is on the bus.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::time::Duration;
 
 use firmware_glue::frame::{CanId, Frame};
@@ -180,31 +181,12 @@ struct Noted {
 /// # Errors
 /// [`BusError`]: nothing goes over the bus.
 pub fn scan<B: Bus>(client: &mut Client<B>, within: Duration) -> Result<Vec<Heard>, BusError> {
-    let mut noted: BTreeMap<u8, Noted> = BTreeMap::new();
-    let mut note = |frame: &Frame| {
-        let id = frame.id().get();
-        let Ok(node @ 1..=127) = u8::try_from(id & 0x7F) else { return };
-        match (id & 0x780, frame.bytes()) {
-            (0x580, Some([_, 0x00, 0x10, 0x00, ..])) => noted.entry(node).or_default().answers += 1,
-            // The highest bit belongs to node guarding.
-            (0x700, Some([state])) => noted.entry(node).or_default().state = Some(state & 0x7F),
-            _ => {}
-        }
-    };
-    for node in 1..=127_u16 {
-        let Some(id) = CanId::new(0x600 + node) else { continue };
-        client.bus().send(&Frame::full(id, [0x40, 0x00, 0x10, 0, 0, 0, 0, 0]))?;
-        // What comes meanwhile is taken, so that nothing piles up in the adapter.
-        for _ in 0..MEANWHILE {
-            let Some(frame) = client.bus().receive(Duration::from_millis(1))? else { break };
-            note(&frame);
-        }
-    }
-    let begin = client.bus().now();
-    while u128::from(client.bus().now().saturating_sub(begin)) < within.as_micros() {
-        if let Some(frame) = client.bus().receive(Duration::from_millis(20))? {
-            note(&frame);
-        }
+    let mut noted = asked(client, 1..=127, within)?;
+    // Another master may have asked the same at the same time. Two devices answer twice every time.
+    let twice: Vec<u8> = noted.iter().filter(|(_, one)| one.answers > 1).map(|(node, _)| *node).collect();
+    for node in twice {
+        let answers = asked(client, node..=node, within)?.get(&node).map_or(1, |again| again.answers);
+        noted.entry(node).or_default().answers = answers.max(1);
     }
     let mut nodes = Vec::new();
     for (node, Noted { state, answers }) in noted {
@@ -216,6 +198,41 @@ pub fn scan<B: Bus>(client: &mut Client<B>, within: Duration) -> Result<Vec<Hear
         nodes.push(Heard { node, state, answer });
     }
     Ok(nodes)
+}
+
+/// What is heard after each of some nodes was asked for its device type.
+fn asked<B: Bus>(
+    client: &mut Client<B>,
+    nodes: RangeInclusive<u8>,
+    within: Duration,
+) -> Result<BTreeMap<u8, Noted>, BusError> {
+    let mut noted: BTreeMap<u8, Noted> = BTreeMap::new();
+    let mut note = |frame: &Frame| {
+        let id = frame.id().get();
+        let Ok(node @ 1..=127) = u8::try_from(id & 0x7F) else { return };
+        match (id & 0x780, frame.bytes()) {
+            (0x580, Some([_, 0x00, 0x10, 0x00, ..])) => noted.entry(node).or_default().answers += 1,
+            // The highest bit belongs to node guarding.
+            (0x700, Some([state])) => noted.entry(node).or_default().state = Some(state & 0x7F),
+            _ => {}
+        }
+    };
+    for node in nodes {
+        let Some(id) = CanId::new(0x600 + u16::from(node)) else { continue };
+        client.bus().send(&Frame::full(id, [0x40, 0x00, 0x10, 0, 0, 0, 0, 0]))?;
+        // Frames that come meanwhile are taken, so that they do not fill the adapter.
+        for _ in 0..MEANWHILE {
+            let Some(frame) = client.bus().receive(Duration::from_millis(1))? else { break };
+            note(&frame);
+        }
+    }
+    let begin = client.bus().now();
+    while u128::from(client.bus().now().saturating_sub(begin)) < within.as_micros() {
+        if let Some(frame) = client.bus().receive(Duration::from_millis(20))? {
+            note(&frame);
+        }
+    }
+    Ok(noted)
 }
 
 /// What a node says of itself.

@@ -168,42 +168,50 @@ fn a_scan_hears_who_does_not_answer() {
 }
 
 /// A bus on which a second device answers with a node-ID, a little later and otherwise.
-struct Shared<'t>(Virtual<'t>);
+struct Shared<'t> {
+    bus: Virtual<'t>,
+    /// So many requests of a client are answered twice.
+    twice: usize,
+}
 
 impl Bus for Shared<'_> {
     fn send(&mut self, frame: &Frame) -> Result<(), BusError> {
-        self.0.send(frame)?;
-        if frame.id().get() == 0x605 {
-            let twin = self.0.heard.back().copied().and_then(|frame| {
+        self.bus.send(frame)?;
+        if frame.id().get() == 0x605 && self.twice > 0 {
+            self.twice -= 1;
+            let twin = self.bus.heard.back().copied().and_then(|frame| {
                 let mut bytes: [u8; 8] = frame.bytes()?.try_into().ok()?;
                 bytes[4] ^= 0x55;
                 Some(Frame::full(frame.id(), bytes))
             });
-            self.0.heard.extend(twin);
+            self.bus.heard.extend(twin);
         }
         Ok(())
     }
 
     fn receive(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
-        self.0.receive(within)
+        self.bus.receive(within)
     }
 
     fn now(&self) -> u64 {
-        self.0.now()
+        self.bus.now()
     }
 }
 
 #[test]
-fn two_devices_with_one_node_id_are_told() {
-    with_lamps(|_, client| {
-        let Virtual { bus, .. } = client.bus();
-        let bus = std::mem::replace(bus, runtime::Bus::new(Vec::new()));
-        let both = Shared(Virtual { bus, heard: VecDeque::new(), now: 0 });
-        let found =
-            scan(&mut Client::new(both, Duration::from_millis(500)), Duration::from_millis(100)).unwrap();
-        let told: Vec<_> = found.iter().map(|one| (one.node, one.answer == Answer::Two)).collect();
-        assert_eq!(told, [(5, true), (6, false)]);
-    });
+fn two_devices_with_one_node_id_answer_every_time() {
+    // Somebody else may ask the node at the same time, once.
+    for (twice, is_shared) in [(1, false), (usize::MAX, true)] {
+        with_lamps(|_, client| {
+            let Virtual { bus, .. } = client.bus();
+            let bus = std::mem::replace(bus, runtime::Bus::new(Vec::new()));
+            let bus = Virtual { bus, heard: VecDeque::new(), now: 0 };
+            let mut client = Client::new(Shared { bus, twice }, Duration::from_millis(500));
+            let found = scan(&mut client, Duration::from_millis(100)).unwrap();
+            let told: Vec<_> = found.iter().map(|one| (one.node, one.answer == Answer::Two)).collect();
+            assert_eq!(told, [(5, is_shared), (6, false)]);
+        });
+    }
 }
 
 /// A bus on which a node's answers are lost, changed or doubled.

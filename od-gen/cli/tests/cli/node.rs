@@ -306,6 +306,16 @@ fn mappings_and_cob_ids_are_changed_step_by_step() {
     assert_snapshot!("node-remap", said.concat());
 }
 
+/// A lock stays lifted for all settings of a command, also where an entry is set twice before.
+#[test]
+fn a_lifted_lock_holds_for_the_whole_command() {
+    let bus = Bus::new("node-unlocked");
+    let said = bus.node("write", &["way=fast", "way=slow", "2005=999", "--unlock", "2005"]);
+    // It is sent; the virtual node refuses it, as it is not in service.
+    assert!(said.contains("note: LOCKED 2005h calibration"), "{said}");
+    assert!(said.contains("0800 0022h") && !said.contains("OD0704"), "{said}");
+}
+
 #[test]
 fn nothing_is_changed_before_it_is_allowed() {
     let bus = Bus::of("node-allowed", "heater.od.yaml", SENSOR);

@@ -1,4 +1,4 @@
-//! What a specification says that its EDS has beside what follows: read as the sections of an EDS are.
+//! Sections that a specification adds to its EDS, read as those of an EDS file are.
 
 use std::collections::BTreeMap;
 

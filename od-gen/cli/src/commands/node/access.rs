@@ -112,6 +112,7 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
     let mut now = Commissioning::of_node(target.device, target.id);
     now.values = before.values;
     let mut unlocked = BTreeSet::new();
+    let is_locked = |id| target.device.entry(id).is_some_and(|entry| entry.locked);
     for round in rounds(target.device, &meant) {
         let of_node = now.configured(target.device);
         let settings = layer.settings.get(round.clone()).unwrap_or_default().to_vec();
@@ -120,8 +121,8 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
         let assigned = assign_layers(target.system, &of_node, target.id, &[round_of], &mut diagnostics);
         unlocked.extend(assigned.unlocked);
         now.values.extend(meant.get(round).unwrap_or_default().iter().cloned());
-        // That there is nothing to unlock is said once.
-        layer.unlocked.retain(|name| unlocked.iter().any(|id| names.entry(&name.value) == Some(*id)));
+        // The first round has reported the names that lift no lock.
+        layer.unlocked.retain(|name| names.entry(&name.value).is_some_and(is_locked));
     }
     checked(&diagnostics, &sources, args.force, report)?;
     for id in &unlocked {
