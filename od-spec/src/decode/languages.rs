@@ -1,13 +1,15 @@
 //! Texts are in the languages that the specification lists: a text in another one would never be shown.
 
+use super::shape::named_once;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::keys::{Keys, Shape};
 use crate::yaml::{Node, NodeKind};
 
 /// Checks a specification; without `languages:` it has English only.
 pub(super) fn check(root: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
-    let listed: Vec<&str> =
-        root.get("languages").map(Node::items).unwrap_or_default().iter().filter_map(text).collect();
+    let languages = root.get("languages").map(Node::items).unwrap_or_default();
+    named_once(languages, diagnostics);
+    let listed: Vec<&str> = languages.iter().filter_map(text).collect();
     let listed = if listed.is_empty() { vec!["en"] } else { listed };
     in_map(root, keys, &listed, diagnostics);
 }

@@ -1,5 +1,7 @@
 //! Compares a YAML tree with the key tables.
 
+use std::collections::BTreeMap;
+
 use super::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::{AnyName, ConditionError, Expr, Parsed, without_names};
@@ -91,6 +93,46 @@ fn wrong_kind_for(node: &Node, expected: &str, example: &str, diagnostics: &mut 
     );
 }
 
+/// Reports what stands twice in a list of names or numbers, in which each counts once.
+fn check_set(items: &[Node], item: Shape, diagnostics: &mut Diagnostics) {
+    let is_set = matches!(
+        item,
+        Shape::NameOf(_)
+            | Shape::Choice(_)
+            | Shape::Index
+            | Shape::Integer(..)
+            | Shape::ErrorCode
+            | Shape::Feature
+            | Shape::Entry
+    );
+    if is_set {
+        named_once(items, diagnostics);
+    }
+}
+
+/// Reports what stands twice in a list; of a map, its first key is the name.
+pub(super) fn named_once(items: &[Node], diagnostics: &mut Diagnostics) {
+    let mut before: BTreeMap<&str, Span> = BTreeMap::new();
+    for node in items {
+        let of_map = || node.entries().first().map(|(name, _)| Spanned::new(name.value.as_str(), name.span));
+        let Some(name) = node.text().or_else(of_map) else { continue };
+        match before.get(name.value) {
+            Some(first) => diagnostics.push(
+                Diagnostic::new(
+                    codes::NAMED_TWICE,
+                    name.span,
+                    format!("`{}` stands twice in the list", shorten(name.value)),
+                )
+                .with(*first, "before")
+                .help("remove one of the two, or name what was meant"),
+            ),
+            None => {
+                before.insert(name.value, name.span);
+            }
+        }
+    }
+}
+
 /// Checks a value of any shape.
 pub(super) fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) {
     match shape {
@@ -108,6 +150,7 @@ pub(super) fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Di
         Shape::MapOf(kind, value) => check_keyed(node, kind, *value, diagnostics),
         Shape::List(item) => match &node.kind {
             NodeKind::List(items) => {
+                check_set(items, *item, diagnostics);
                 for node in items {
                     let owner = start(node);
                     check(node, *item, owner, diagnostics);
@@ -135,6 +178,7 @@ pub(super) fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Di
         Shape::OneOrMore(item) => match &node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
+                check_set(items, *item, diagnostics);
                 for node in items {
                     let owner = start(node);
                     check(node, *item, owner, diagnostics);

@@ -14,4 +14,7 @@ rules! { Rule:
     integers_have_common_widths,
     real_values_are_kept,
     start_values_are_allowed,
+    units_measure_quantities,
+    symbols_keep_their_meaning,
+    quantities_are_possible,
 }
