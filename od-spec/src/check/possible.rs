@@ -1,6 +1,6 @@
 //! The values that an entry can have, as far as type, limits, enum and access tell.
 
-use crate::model::{Access, DataType, Entry, TypeKind, Value};
+use crate::model::{Access, BitUsage, DataType, Entry, TypeKind, Value};
 
 /// Raw values from one to another, both included.
 pub(in crate::check) type Run = (i128, i128);
@@ -62,6 +62,18 @@ pub(in crate::check) fn bits(runs: &[Run], bit: u8) -> Vec<Run> {
     values.sort_unstable();
     values.dedup();
     values.into_iter().map(|value| (value, value)).collect()
+}
+
+/// Whether a bit is reserved, and 0 for ever: nobody can write it.
+pub(in crate::check) fn is_reserved(entry: &Entry, bit: u8) -> bool {
+    if entry.access.is_writable() {
+        return false;
+    }
+    let Some(TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind) else {
+        return false;
+    };
+    let field = fields.iter().find(|field| (field.first..=field.last).contains(&bit));
+    field.is_some_and(|field| field.usage == BitUsage::Reserved)
 }
 
 /// Whether a value is one of a type.

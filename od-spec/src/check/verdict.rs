@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::possible::{Run, bits, possible};
+use super::possible::{Run, bits, is_reserved, possible};
 use super::subject::Subject;
 use crate::model::{ArithmeticOp, CompareOp, Comparison, Entry, EntryId, EntryRef, Expr, Ratio, Term};
 
@@ -97,6 +97,7 @@ impl<'a> Knowledge<'a> {
         let whole = |(low, high): Run| (Ratio::whole(low), Ratio::whole(high));
         match term {
             Term::Number(number) => Some(vec![(*number, *number)]),
+            Term::Bit(entry, bit) if is_reserved(self.entry(entry)?, *bit) => Some(vec![whole((0, 0))]),
             Term::Bit(entry, bit) => Some(bits(&self.raw(entry)?, *bit).into_iter().map(whole).collect()),
             Term::Entry(entry) => {
                 let runs = self.raw(entry)?;
@@ -166,7 +167,24 @@ impl<'a> Knowledge<'a> {
         if condition.is_unresolved() {
             return Verdict::Open;
         }
-        Verdict::any(condition.alternatives.iter().map(|comparisons| self.together(comparisons)))
+        let verdict =
+            Verdict::any(condition.alternatives.iter().map(|comparisons| self.together(comparisons)));
+        match verdict {
+            Verdict::Open if self.leaves_nothing(condition) => Verdict::Always,
+            Verdict::Open | Verdict::Always | Verdict::Never => verdict,
+        }
+    }
+
+    /// Whether alternatives of one comparison each leave no case out, such as `a < 5 or a >= 5`.
+    fn leaves_nothing(&self, condition: &Expr) -> bool {
+        let single = condition.alternatives.iter().map(|comparisons| match comparisons.as_slice() {
+            [Comparison { first, rest }] => match rest.as_slice() {
+                [(op, last)] => Some((first, op.opposite(), last)),
+                _ => None,
+            },
+            _ => None,
+        });
+        single.collect::<Option<Vec<Link<'_>>>>().is_some_and(|links| self.contradict(&links))
     }
 
     /// Whether links can never hold together: they ask for an order that goes in a circle, or that ends of ranges do not have.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::{AnyName, ConditionError, Expr, Parsed, without_names};
-use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, Shape, VERSION};
+use crate::keys::{CHANNELS, Key, KeyKind, Keys, NameOf, NumberedName, Shape, VERSION};
 use crate::model::Access;
 use crate::name_pattern::{NamePattern, Placeholder};
 use crate::scalar;
@@ -95,29 +95,34 @@ fn wrong_kind_for(node: &Node, expected: &str, example: &str, diagnostics: &mut 
 
 /// Reports what stands twice in a list of names or numbers, in which each counts once.
 fn check_set(items: &[Node], item: Shape, diagnostics: &mut Diagnostics) {
-    let is_set = matches!(
-        item,
+    let is_set = match item {
+        // Files are not joined twice; that is said by itself.
+        Shape::NameOf(NameOf::File | NameOf::LibraryFile) => false,
         Shape::NameOf(_)
-            | Shape::Choice(_)
-            | Shape::Index
-            | Shape::Integer(..)
-            | Shape::ErrorCode
-            | Shape::Feature
-            | Shape::Entry
-    );
+        | Shape::Choice(_)
+        | Shape::Index
+        | Shape::Integer(..)
+        | Shape::ErrorCode
+        | Shape::Feature
+        | Shape::Entry => true,
+        _ => false,
+    };
     if is_set {
         named_once(items, diagnostics);
     }
 }
 
-/// Reports what stands twice in a list; of a map, its first key is the name.
+/// Reports what stands twice in a list. A name with a number, as features with channels have it, is the same with the same number.
 pub(super) fn named_once(items: &[Node], diagnostics: &mut Diagnostics) {
-    let mut before: BTreeMap<&str, Span> = BTreeMap::new();
+    let mut before: BTreeMap<(&str, Option<&str>), Span> = BTreeMap::new();
     for node in items {
-        let of_map = || node.entries().first().map(|(name, _)| Spanned::new(name.value.as_str(), name.span));
-        let Some(name) = node.text().or_else(of_map) else { continue };
-        match before.get(name.value) {
-            Some(first) => diagnostics.push(
+        let numbered = || {
+            let (name, number) = node.entries().first()?;
+            Some((Spanned::new(name.value.as_str(), name.span), number.text().map(|text| text.value)))
+        };
+        let Some((name, number)) = node.text().map(|name| (name, None)).or_else(numbered) else { continue };
+        if let Some(first) = before.get(&(name.value, number)) {
+            diagnostics.push(
                 Diagnostic::new(
                     codes::NAMED_TWICE,
                     name.span,
@@ -125,10 +130,9 @@ pub(super) fn named_once(items: &[Node], diagnostics: &mut Diagnostics) {
                 )
                 .with(*first, "before")
                 .help("remove one of the two, or name what was meant"),
-            ),
-            None => {
-                before.insert(name.value, name.span);
-            }
+            );
+        } else {
+            before.insert((name.value, number), name.span);
         }
     }
 }

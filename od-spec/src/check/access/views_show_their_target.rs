@@ -27,21 +27,23 @@ const CODE: &Code = &Code {
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for view in subject.device.views() {
         let Some(target) = subject.device.entry(view.alias.target) else { continue };
-        let Some(problem) = problem(view.entry, view.alias, target) else { continue };
+        let (problem, help) = match cut(view.entry, view.alias, target) {
+            Some(bit) => (
+                format!("shows all bits set while bit {bit} of {} is", view.alias.target),
+                "write `outside: wrap`, which leaves the upper bits out, or give the alias a wider type",
+            ),
+            None => match problem(view.entry, view.alias, target) {
+                Some(problem) => (problem, "give the alias a wider type or another unit"),
+                None => continue,
+            },
+        };
         let message = format!("{} ({}) {problem}", view.id, view.entry.name);
-        findings.push(
-            subject
-                .finding(CODE, view.id, view.entry, Fact::Alias, message)
-                .help("give the alias a wider type or another unit"),
-        );
+        findings.push(subject.finding(CODE, view.id, view.entry, Fact::Alias, message).help(help));
     }
 }
 
 fn problem(view: &Entry, alias: &Alias, target: &Entry) -> Option<String> {
     let of = alias.target;
-    if let Some(bit) = cut(view, alias, target) {
-        return Some(format!("shows all bits set while bit {bit} of {of} is"));
-    }
     let (low, high) = hull(target)?;
     let (exact_low, exact_high) = ends(alias.factor, (low, high))?;
     let (least, most) = hull(view)?;
@@ -49,7 +51,9 @@ fn problem(view: &Entry, alias: &Alias, target: &Entry) -> Option<String> {
         return Some(format!("shows none of the values of {of}"));
     }
     let shown = |raw| convert(raw, alias.factor, alias.rounding, Outside::Abort, view.data_type);
+    // Whoever says what happens outside has seen that the view is narrow.
     if let Some(default) = target.default.as_ref().and_then(Value::integer)
+        && alias.outside == Outside::Saturate
         && fits(default, target.data_type)
         && shown(default).is_none()
     {

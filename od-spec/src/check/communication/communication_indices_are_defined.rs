@@ -1,5 +1,7 @@
 //! An object from 1000h to 1FFFh is one that a standard defines.
 
+use std::ops::RangeInclusive;
+
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::standard_objects::from_library::CIA302;
@@ -26,6 +28,8 @@ const CODE: &Code = &Code {
 
 /// Objects of CiA 302 that its library does not have: the inhibit time of NMT messages, and programs for the nodes of a manager.
 const OF_MANAGERS: [u16; 2] = [0x102A, 0x1F58];
+/// Objects of CANopen Safety: its parameters, its messages and their mappings, and their checksums.
+const SAFETY: [RangeInclusive<u16>; 3] = [0x1300..=0x1340, 0x1381..=0x13C0, 0x13FE..=0x13FF];
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     // From 1300h on, several standards have objects, and which of them an EDS follows it does not say.
@@ -40,7 +44,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 || OF_MANAGERS.contains(&index.0)
                 || (subject.standard.in_library)(CIA302, index).is_some()
         };
-        if object.profile.is_some() || is_defined() {
+        if object.profile.is_some() || SAFETY.iter().any(|run| run.contains(&index.0)) || is_defined() {
             continue;
         }
         let message = match index.0 {
@@ -51,7 +55,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 format!("{index} ({}) lies among the objects of CiA 301, which has none there", object.name)
             }
             _ => {
-                format!("{index} ({}) lies in the area of the standards, which have none there", object.name)
+                format!("{index} ({}) lies in the area of the standards, 1000h to 1FFFh", object.name)
             }
         };
         findings.push(

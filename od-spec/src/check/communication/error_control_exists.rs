@@ -5,7 +5,7 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::Index;
+use crate::model::{Fact, Index};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -49,10 +49,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             "{} ({}) is 0 and cannot be written: nothing watches the device",
             time.id, time.entry.name
         );
-        findings.push(time.finding(CODE, message).help(subject.help(Help {
-            specification: "make the entry `rw`, or write another time",
-            eds: "let the entry be writable, or write another time",
-            setting: "the device has to have another time there",
-        })));
+        findings.push(subject.finding(CODE, time.id, time.entry, Fact::Access, message).help(subject.help(
+            Help {
+                specification: "make the entry `rw`, or write another time",
+                eds: "let the entry be writable, or write another time",
+                setting: "the device has to have another time there",
+            },
+        )));
     }
 }

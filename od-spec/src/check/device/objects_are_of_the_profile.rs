@@ -63,14 +63,19 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let help = format!("write {number} (0x{number:04X}) into the low word of `device-type:`");
         findings.push(parameter.finding(CODE, message).help(help));
     }
+    let names_none = !named.is_empty() && named.values().all(|one| *one == 0);
     let is_own = |object: &&Object| object.profile.is_none();
-    if let Some(object) = objects().find(is_own).filter(|_| named.values().all(|one| *one == 0)) {
+    if let Some(object) = objects().find(is_own).filter(|_| names_none) {
         let message = format!("{} lies in the area of device profiles, of which none is named", object.index);
         let more = objects().filter(is_own).count() - 1;
         let finding: Diagnostic = subject
             .object_finding(CODE, object, message)
             .help("name the profile in `device-type:`, or move the object to 2000h to 5FFFh");
-        findings.push(if more == 0 { finding } else { finding.note(format!("so do {more} more objects")) });
+        findings.push(match more {
+            0 => finding,
+            1 => finding.note("so does 1 more object"),
+            _ => finding.note(format!("so do {more} more objects")),
+        });
     }
 }
 

@@ -1,5 +1,6 @@
 //! Arrays that describe one set of channels or programs have an element for each.
 
+use crate::check::device::channels_are_in_the_device_type::KINDS;
 use crate::check::device::device_type_is_kept::{IO_MODULES, axes};
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
@@ -46,38 +47,47 @@ const PAIRS: [(u16, u16); 5] =
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     // In a drive, some of these are objects of its motor.
     let is_io_module = axes(subject, IO_MODULES).contains(&Index(0x6000));
+    let has_modules = subject.device.further.as_ref().is_some_and(|further| !further.modules.is_empty());
+    let has = |index: Index| subject.device.objects.contains_key(&index);
     let array = |index: &u16| {
         let index = Index(*index);
         let is_described = index.is_communication_profile() || is_io_module;
         let object = subject.device.objects.get(&index)?;
         (is_described && object.is_structured() && !subject.device.is_of_modules(index)).then_some(object)
     };
-    let mut differ = |object: &Object, other: &Object| {
-        let message = format!(
-            "{} ({}) has {} elements, {} ({}) has {}",
-            object.index,
-            object.name,
-            object.counted().count(),
-            other.index,
-            other.name,
-            other.counted().count()
-        );
+    let mut differ = |object: &Object, other: Index, length: usize| {
+        let own = match length_of(object) {
+            1 => "1 element".to_owned(),
+            count => format!("{count} elements"),
+        };
+        let message = format!("{} ({}) has {own}, {other} has {length}", object.index, object.name);
         findings.push(subject.object_finding(CODE, object, message).help("give both one length"));
     };
     for (described, describing) in DESCRIBED {
-        let longest = described.iter().filter_map(array).max_by_key(|object| object.counted().count());
-        let Some(longest) = longest else { continue };
-        for object in describing.iter().filter_map(array) {
-            if object.counted().count() > longest.counted().count() {
-                differ(object, longest);
-            }
+        let longest = described.iter().filter_map(array).max_by_key(|object| length_of(object));
+        let (other, length) = match longest {
+            Some(longest) => (longest.index, length_of(longest)),
+            // Channels may be there in another length; without any, these elements describe nothing.
+            None => match KINDS.iter().find(|(_, objects)| objects.contains(&described[0])) {
+                Some((_, objects)) if !has_modules && !objects.iter().any(|index| has(Index(*index))) => {
+                    (Index(described[0]), 0)
+                }
+                Some(_) | None => continue,
+            },
+        };
+        for object in describing.iter().filter_map(array).filter(|object| length_of(object) > length) {
+            differ(object, other, length);
         }
     }
     for (one, other) in PAIRS {
         if let (Some(one), Some(other)) = (array(&one), array(&other))
-            && one.counted().count() != other.counted().count()
+            && length_of(one) != length_of(other)
         {
-            differ(other, one);
+            differ(other, one.index, length_of(one));
         }
     }
+}
+
+fn length_of(object: &Object) -> usize {
+    object.counted().count()
 }

@@ -92,10 +92,11 @@ fn of_prefix(unit: &Unit) -> Option<Diagnostic> {
     let first = expected.first().filter(|_| !expected.contains(&base.factor))?;
     let (symbol, base_symbol) = (shorten(&unit.symbol), shorten(&base.symbol));
     let message = format!("1 {symbol} is {first} {base_symbol}, not {}", base.factor);
-    Some(
-        Diagnostic::new(CODE, unit.stated.span, message)
-            .help(format!("write `base: {first} {}`, or correct the symbol", base.symbol)),
-    )
+    Some(Diagnostic::new(CODE, unit.stated.span, message).help(format!(
+        "write `base: {} {}`, or correct the symbol",
+        fraction(*first),
+        base.symbol
+    )))
 }
 
 /// The powers of ten between two symbols that are one and the same behind their prefixes.
@@ -124,6 +125,14 @@ fn exponent(root: &str) -> i32 {
         Some('²' | '2') => 2,
         Some('³' | '3') => 3,
         Some(_) | None => 1,
+    }
+}
+
+/// A power of ten as a specification writes it: `1000`, `1/1000`.
+fn fraction(power: Ratio) -> String {
+    match power.to_whole() {
+        Some(whole) => whole.to_string(),
+        None => format!("{}/{}", power.numerator(), power.denominator()),
     }
 }
 

@@ -274,8 +274,10 @@ pub(crate) fn right() -> Vec<Right> {
         ),
         case::right(
             "6040h of a device that is no drive",
-            full("0x6040: {name: Inputs, type: unsigned32, access: ro}")
-                .replace("features:", "device-type: 410, features:"),
+            format!(
+                "devices:\n  io: {{name: Example, bit-rates: [125], device-type: 410, features: [heartbeat producer]}}\n{}",
+                full("0x6040: {name: Inputs, type: unsigned32, access: ro}")
+            ),
         ),
         of_drive("a drive as the library has it", ""),
         of_drive(
