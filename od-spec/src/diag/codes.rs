@@ -248,6 +248,26 @@ codes! {
             "sites:\n  Hall: {type: P1, machines: {1..10: {}, 11: {}}}",
             "sites:\n  Hall: {type: P1, machines: {1..11: {}}}"
         )]
+    NO_TRANSLATION Warning "OD0862" "a text without its translation":
+        "`languages:` lists the languages of the texts, and a text that is written by language lacks one of them, or is empty in it. Documents in this language then show the text in another one. Write it; `odgen check --translations` lists every text that lacks a language."
+        [Example::new(
+            "languages: [en, de]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: {en: Level of the tank.}}",
+            "languages: [en, de]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: {en: Level of the tank., de: Füllstand des Behälters.}}"
+        )]
+    ONE_LANGUAGE Note "OD0863" "texts in one language":
+        "A text that is not written by language is in the first language of `languages:`. Documents in another one show it as it is. `odgen check --translations` lists these texts, for translators."
+        [Example::new(
+            "languages: [en, de]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: Level of the tank.}",
+            "languages: [en, de]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: {en: Level of the tank., de: Füllstand des Behälters.}}"
+        )]
+    NAMED_IN_TEXT Warning "OD0864" "a text names what is not there":
+        "A text names an object that no device has, or a table, figure or section that `document:` does not have. It leads the reader nowhere: a wrong digit, or something that was renamed or removed? Numbers of other documents count where the sentence names them: `CiA 301, section 7.5`. Texts of errata and of the history are about other issues, and are not looked at. `since:` names an issue that `history:` lists."
+        [Example::new(
+            "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: The limit is object 2010h.}\n  0x2001: {name: limit, type: unsigned8, access: ro}",
+            "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: The limit is object 2001h.}\n  0x2001: {name: limit, type: unsigned8, access: ro}"
+        )]
+    NO_CHANGE Warning "OD0865" "an erratum that changes nothing":
+        "An erratum says what the manual prints and how it is read. Here both are equal, so that nobody learns what is wrong with the manual. Correct one of them, or remove the erratum."
     STACK_DIFFERS Warning "OD0860" "something that the stack wants set up":
         "CANopenNode has a configuration of its own, and takes some things otherwise than the dictionary says. The files are made and compile; the message tells what is to be done in the project that takes them, or what is different on the bus."
     COB_ID_OF_OTHER_NODE Warning "OD0861" "a COB-ID of the node-ID that a file is for":
@@ -327,6 +347,18 @@ codes! {
         [Example::xdd(
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" defaultValue=\"0\" actualValue=\"5\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" defaultValue=\"0\"/>\n</CANopenObjectList>"
+        )]
+    XDD_COUNT Warning "XDD210" "a number of sub-objects that is not theirs":
+        "`subNumber` is the number of sub-objects, sub-index 0 among them. The sub-objects that are there count. Is one of them missing?"
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"levels\" objectType=\"9\" subNumber=\"3\">\n    <CANopenSubObject subIndex=\"00\" name=\"number\" objectType=\"7\" dataType=\"0005\" accessType=\"const\" defaultValue=\"1\"/>\n    <CANopenSubObject subIndex=\"01\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n  </CANopenObject>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"levels\" objectType=\"9\" subNumber=\"2\">\n    <CANopenSubObject subIndex=\"00\" name=\"number\" objectType=\"7\" dataType=\"0005\" accessType=\"const\" defaultValue=\"1\"/>\n    <CANopenSubObject subIndex=\"01\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n  </CANopenObject>\n</CANopenObjectList>"
+        )]
+    XDD_LISTS Warning "XDD211" "a second list of objects":
+        "A device has one `CANopenObjectList`. The first one is read; what a further one holds is left out of everything that is made from the file."
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>\n<CANopenObjectList>\n  <CANopenObject index=\"2001\" name=\"limit\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n  <CANopenObject index=\"2001\" name=\"limit\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
         )]
     XDD_LEFT_OUT Note "XDD207" "something that has no place":
         "A dictionary has no place for it, or it can be understood in more than one way: what other programs keep in `property`, modules, templates, and units whose raw values count from an `offset`."
