@@ -17,6 +17,7 @@ pub(crate) mod communication;
 pub(crate) mod constraints;
 pub(crate) mod device;
 pub(crate) mod drives;
+pub(crate) mod machines;
 pub(crate) mod names;
 pub(crate) mod pdo;
 pub(crate) mod settings;
@@ -91,6 +92,7 @@ pub(crate) static RULES: LazyLock<Vec<&'static Rule>> = LazyLock::new(|| {
         standard_objects::RULES,
         device::RULES,
         drives::RULES,
+        machines::RULES,
     ];
     let mut rules: Vec<&Rule> = areas.into_iter().flatten().collect();
     rules.sort_by_key(|rule| rule.code);
