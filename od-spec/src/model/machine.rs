@@ -168,7 +168,8 @@ impl BitPattern {
         }
         // The number is as `low` above one bit, which is 0 there and 1 here; below that bit it is as small as it can be.
         (0..self.0.len().min(64)).find_map(|bit| {
-            let (one, upper) = (1_u64 << bit, u64::MAX.checked_shl(u32::try_from(bit).ok()? + 1).unwrap_or(0));
+            let (one, upper) =
+                (1_u64 << bit, u64::MAX.checked_shl(u32::try_from(bit).ok()? + 1).unwrap_or(0));
             let may_rise = low & one == 0 && (mask & one == 0 || value & one != 0);
             let is_as_low = (low ^ value) & mask & upper == 0;
             (may_rise && is_as_low).then_some(low & upper | one | value & (one - 1))

@@ -164,7 +164,8 @@ fn machine(
             let data_type = device.entry(id)?.data_type;
             let message = format!("{id} is {data_type}, whose bits are neither states nor commands");
             diagnostics.push(
-                Diagnostic::new(codes::PATTERN_WIDTH, place, message).help("name an entry of an integer type"),
+                Diagnostic::new(codes::PATTERN_WIDTH, place, message)
+                    .help("name an entry of an integer type"),
             );
             return None;
         }

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::declared::Declared;
 use super::defaults;
 use super::entries;
+use super::keys_have_effect;
 use super::surroundings::Surroundings;
 use super::types::words;
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
@@ -61,6 +62,7 @@ pub(super) fn resolve(
         }
     };
     diagnostics.now_about(Some(decl.index.value.into()));
+    keys_have_effect::check_written(decl, &entries, around.file, diagnostics);
     Some(Object {
         index: decl.index.value,
         name: name.value.clone(),
@@ -156,6 +158,10 @@ fn elements(
     if list.is_empty() && broken {
         return None;
     }
+    // What a library says for all is also for those who have more.
+    if around.device.is_some() && !broken && !list.is_empty() {
+        keys_have_effect::check_taken(decl, &list, around.file, diagnostics);
+    }
     finish(decl, list, around, diagnostics)
 }
 
@@ -195,6 +201,10 @@ fn members(
     }
     if list.is_empty() && broken {
         return None;
+    }
+    // What a library says for all is also for those who have more.
+    if around.device.is_some() && !broken && !list.is_empty() {
+        keys_have_effect::check_taken(decl, &list, around.file, diagnostics);
     }
     finish(decl, list, around, diagnostics)
 }
