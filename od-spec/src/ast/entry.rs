@@ -115,6 +115,18 @@ macro_rules! entry_decl {
 }
 entry_keys!(entry_decl);
 
+impl EntryDecl {
+    /// Whether its default says something for a device.
+    pub(crate) fn is_for(&self, device: Option<&str>) -> bool {
+        match self.default.as_ref().map(|default| &default.value) {
+            Some(DefaultDecl::ByDevice(values)) => {
+                values.iter().any(|(key, _)| Some(key.value.as_str()) == device)
+            }
+            Some(DefaultDecl::One(_) | DefaultDecl::Each(_)) | None => true,
+        }
+    }
+}
+
 /// A place of the maker's as it is; of any other, the place at which the maker refers to it.
 pub(crate) fn adopted(written: Span, maker: FileId, place: Span) -> Span {
     if written.file.is_one_with(maker) { written } else { place }

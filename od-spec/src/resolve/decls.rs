@@ -186,25 +186,6 @@ fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diag
                 .help("keep one of `alias:` and `from:`"),
         );
     }
-    let EntryDecl { type_name, unit, access, pdo, .. } = &decl.entry;
-    let keys = [
-        ("type", type_name.as_ref().map(|key| key.span)),
-        ("unit", unit.as_ref().map(|key| key.span)),
-        ("access", access.as_ref().map(|key| key.span)),
-        ("pdo", pdo.as_ref().map(|key| key.span)),
-    ];
-    for (key, span) in keys.into_iter().filter(|_| structured) {
-        if let Some(span) = span {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::CONFLICTING_KEYS,
-                    span,
-                    format!("`{key}` has no effect here: the library's entries have their own"),
-                )
-                .help(format!("write `{key}` under `array:` or at the members of `record:`")),
-            );
-        }
-    }
     keys_have_effect::check_omitted(decl, merged, diagnostics);
 }
 

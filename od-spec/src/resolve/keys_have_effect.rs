@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::scope::unknown;
+use super::surroundings::Surroundings;
 use crate::ast::{BitDecl, EntryDecl, ObjectDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{BitUsage, Entry, Fact, PatternBit};
@@ -155,7 +156,7 @@ pub(super) fn refuse_sub0(sub0: &EntryDecl, diagnostics: &mut Diagnostics) {
 pub(super) fn check_taken(
     decl: &ObjectDecl,
     entries: &[Entry],
-    maker: FileId,
+    around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) {
     let of_object = decl.entry.inherited();
@@ -164,18 +165,18 @@ pub(super) fn check_taken(
         for (key, fact) in common.stated() {
             // What a library says is told to nobody, nor is what the object has that this one is like.
             let is_makers =
-                key.span.file.is_one_with(maker) && decl.like.is_none_or(|like| like.span != key.span);
+                key.span.file.is_one_with(around.file) && decl.like.is_none_or(|like| like.span != key.span);
             let is_taken =
                 |entry: &Entry| entry.facts.get(fact).is_some_and(|stated| key.span.contains(stated.span));
-            // The name is that of elements which others may have that are like this one.
-            let may_be_left = fact == Fact::Name;
+            // The name is that of elements which others may have that are like this one; a default may be that of other devices.
+            let may_be_left = fact == Fact::Name || fact == Fact::Default && !common.is_for(around.device);
             if is_makers
                 && !may_be_left
                 && !entries.iter().any(is_taken)
                 && diagnostics.is_new(codes::CONFLICTING_KEYS, key.span)
             {
-                let help = "remove it; each entry says it itself, or cannot have it";
-                refuse(key.value, key.span, "no entry takes it from here", help, diagnostics);
+                let help = format!("write `{}` at the entries that it is meant for, or remove it", key.value);
+                refuse(key.value, key.span, "no entry takes it from here", &help, diagnostics);
             }
         }
     }

@@ -5,9 +5,9 @@ use crate::check::pdo::parameters::title;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::{Fact, Index, SystemSource};
+use crate::model::{Fact, Index, Origin};
 
-pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
+pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
 const CODE: &Code = &Code {
     id: "OD0879",
@@ -24,11 +24,16 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    // The files of many devices have such PDOs for a master to fill.
-    if subject.system.source != SystemSource::Specification {
+    // Whoever sets the number of a node's mapped entries to 0 switches the PDO off by that.
+    if subject.node.is_some() {
         return;
     }
     for pdo in subject.device.pdos.iter().filter(|pdo| pdo.valid && pdo.variable_mapping) {
+        // One that is described in full, as the files of many devices have it, is for a master to fill.
+        let mapping = subject.device.objects.get(&Index(pdo.mapping_index()));
+        if mapping.is_none_or(|mapping| mapping.origin != Origin::Pdo) {
+            continue;
+        }
         let Some(count) = subject.mapping_count(pdo).filter(|count| count.raw() == 0) else { continue };
         let message = format!("{} exists after start-up and maps nothing", title(pdo));
         findings.push(

@@ -29,7 +29,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     if subject.system.source != SystemSource::Specification {
         return;
     }
-    for (id, _, entry) in subject.device.entries().filter(|(.., entry)| !entry.special.is_empty()) {
+    for (id, _, entry) in subject.device.entries().filter(|(.., entry)| by_maker(entry)) {
         let found = entry.special.iter().find_map(|special| Some((special, other_meaning(entry, special)?)));
         let Some((special, other)) = found else { continue };
         let message =
@@ -40,6 +40,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 .help("take a value that the entry does not have otherwise"),
         );
     }
+}
+
+/// Whether the maker has special values; what a standard calls so is meant so.
+fn by_maker(entry: &Entry) -> bool {
+    !entry.special.is_empty() && !entry.is_only_standard(Fact::Special)
 }
 
 /// What a special value means beside what it is special for.
