@@ -22,7 +22,7 @@ const CODE: &Code = &Code {
         of the status entry that belongs to another state shows what is not so. Correct the access or the default, or name another entry.",
     clause: None,
     example: Some(Example::new(
-        "objects:\n  0x2000: {name: command, type: unsigned8, access: ro}\n  0x2001: {name: status, type: unsigned8, access: ro}\nstate-machines:\n  motor:\n    status: status\n    command: command\n    states: {stopped: {pattern: xxxx xxx0}, running: {pattern: xxxx xxx1}}",
+        "objects:\n  0x2000: {name: command, type: unsigned8, access: rw}\n  0x2001: {name: status, type: unsigned8, access: wo}\nstate-machines:\n  motor:\n    status: status\n    command: command\n    states: {stopped: {pattern: xxxx xxx0}, running: {pattern: xxxx xxx1}}",
         "objects:\n  0x2000: {name: command, type: unsigned8, access: rw}\n  0x2001: {name: status, type: unsigned8, access: ro}\nstate-machines:\n  motor:\n    status: status\n    command: command\n    states: {stopped: {pattern: xxxx xxx0}, running: {pattern: xxxx xxx1}}",
     )),
 };
