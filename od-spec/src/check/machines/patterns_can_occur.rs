@@ -31,8 +31,9 @@ fn check(system: &System, findings: &mut Findings) {
                 let of_status = Needed { machine, id: machine.status, entry };
                 for state in &machine.states {
                     let what = format!("state `{}`", shorten(&state.name));
-                    let found = of_status.pattern(&what, &state.pattern, state.span);
-                    found.into_iter().for_each(|finding| findings.push(finding));
+                    if let Some(finding) = of_status.pattern(&what, &state.pattern, state.span) {
+                        findings.push(finding);
+                    }
                 }
             }
             let Some(entry) = device.entry(machine.command) else { continue };
@@ -41,7 +42,9 @@ fn check(system: &System, findings: &mut Findings) {
                 let what = format!("command `{}`", shorten(&command.name));
                 let send = command.send.and_then(|send| of_command.value(&what, send.into(), command.span));
                 let found = of_command.pattern(&what, &command.pattern, command.span).or(send);
-                found.into_iter().for_each(|finding| findings.push(finding));
+                if let Some(finding) = found {
+                    findings.push(finding);
+                }
             }
         }
     }
