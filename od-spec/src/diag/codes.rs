@@ -91,7 +91,7 @@ codes! {
     DUPLICATE_SUB_INDEX Error "OD0302" "a sub-index is defined twice":
         "Two entries of one object have one sub-index, perhaps in two notations (`10` and `0x0A`)."
     DUPLICATE_VALUE Error "OD0304" "a number stands for two things":
-        "Two values of an enum, two special values, two transitions, two error codes, two tables or two figures have one number."
+        "Two values of an enum, two special values, two transitions, two error codes, two tables or two figures have one number, or a bit reports one error code twice."
     NO_DEVICE Error "OD0305" "no device":
         "Without a device there is no dictionary to build. Add `devices:`; a file that is meant to be used by others needs `profile:` instead."
     UNKNOWN_DEVICE Error "OD0306" "an unknown device":
@@ -149,7 +149,7 @@ codes! {
     DUPLICATE_PDO Error "OD0501" "a PDO is defined twice":
         "Two PDOs of one device and direction have one number."
     PATTERN_WIDTH Error "OD0603" "a bit pattern of the wrong width":
-        "A state or command pattern has one place for each bit of the entry it describes."
+        "A state or command pattern has one place for each bit of the entry it describes, which is of an integer type: the bits of a text, a REAL or a time stand for no states."
     COMMAND_MISMATCH Error "OD0604" "a command code against its pattern":
         "The value under `send:` does not have the bits that `pattern:` demands."
     AMBIGUOUS_STATES Error "OD0605" "states that look the same":

@@ -14,4 +14,5 @@ rules! { Rule:
     integers_have_common_widths,
     real_values_are_kept,
     start_values_are_allowed,
+    special_values_mean_one_thing,
 }
