@@ -8,9 +8,11 @@ pub(crate) mod allowed;
 pub(crate) mod departures;
 mod findings;
 mod help;
+mod possible;
 mod rule;
 pub(crate) mod standard;
 mod subject;
+mod verdict;
 
 pub(crate) mod access;
 pub(crate) mod communication;

@@ -2,15 +2,15 @@
 
 use crate::model::{Entry, Index, Object, ObjectKind, SubIndex};
 
-/// What CiA 301 and CiA 402 say about objects. Whoever has read the standards hands them in: reading them takes what rules come after.
+/// What the standards say about objects. Whoever has read the standards hands them in: reading them takes what rules come after.
 #[derive(Clone, Copy)]
 pub(crate) struct Standard {
     /// The object that it defines at an index; for one of a run, the first of the run.
     pub object: fn(Index) -> Option<&'static Object>,
     /// Whether the library `cia301` has the object at an index.
     pub is_in_library: fn(Index) -> bool,
-    /// The object that CiA 402 defines at an index, as the first axis has it.
-    pub of_drives: fn(Index) -> Option<&'static Object>,
+    /// The object that a library of another standard has at an index, as the first axis has it.
+    pub in_library: fn(&str, Index) -> Option<&'static Object>,
 }
 
 impl Standard {

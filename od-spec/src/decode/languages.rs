@@ -1,6 +1,7 @@
 //! Texts are in the languages that the specification lists: one in another language would never be shown, and one that lacks a
 //! language is shown in another.
 
+use super::shape::named_once;
 use super::texts;
 use crate::ast::Untranslated;
 use crate::diag::{Diagnostic, Diagnostics, Repeated, codes, shorten};
@@ -10,18 +11,8 @@ use crate::yaml::{Node, NodeKind};
 
 /// Checks that texts are in the languages that are listed; without `languages:`, in English.
 pub(super) fn check(root: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
+    named_once(root.get("languages").map(Node::items).unwrap_or_default(), diagnostics);
     let listed = listed(root);
-    for (at, language) in listed.iter().enumerate() {
-        if let Some(before) = listed[..at].iter().find(|before| before.value == language.value) {
-            let message = format!("`{}` stands twice in `languages:`", shorten(language.value));
-            diagnostics.push(
-                Diagnostic::new(codes::DUPLICATE_VALUE, language.span, message)
-                    .label("again here")
-                    .with(before.span, "first here")
-                    .help("remove one of them"),
-            );
-        }
-    }
     let names: Vec<&str> =
         if listed.is_empty() { vec!["en"] } else { listed.iter().map(|name| name.value).collect() };
     texts::each(root, keys, &mut |node| unlisted(node, &names, diagnostics));

@@ -1,9 +1,11 @@
 //! Compares a YAML tree with the key tables.
 
+use std::collections::BTreeMap;
+
 use super::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::{AnyName, ConditionError, Expr, Parsed, without_names};
-use crate::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, Shape, VERSION};
+use crate::keys::{CHANNELS, Key, KeyKind, Keys, NameOf, NumberedName, Shape, VERSION};
 use crate::model::Access;
 use crate::name_pattern::{NamePattern, Placeholder};
 use crate::scalar;
@@ -91,6 +93,50 @@ fn wrong_kind_for(node: &Node, expected: &str, example: &str, diagnostics: &mut 
     );
 }
 
+/// Reports what stands twice in a list of names or numbers, in which each counts once.
+fn check_set(items: &[Node], item: Shape, diagnostics: &mut Diagnostics) {
+    let is_set = match item {
+        // Files are not joined twice; that is said by itself.
+        Shape::NameOf(NameOf::File | NameOf::LibraryFile) => false,
+        Shape::NameOf(_)
+        | Shape::Choice(_)
+        | Shape::Index
+        | Shape::Integer(..)
+        | Shape::ErrorCode
+        | Shape::Feature
+        | Shape::Entry => true,
+        _ => false,
+    };
+    if is_set {
+        named_once(items, diagnostics);
+    }
+}
+
+/// Reports what stands twice in a list. A name with a number, as features with channels have it, is the same with the same number.
+pub(super) fn named_once(items: &[Node], diagnostics: &mut Diagnostics) {
+    let mut before: BTreeMap<(&str, Option<&str>), Span> = BTreeMap::new();
+    for node in items {
+        let numbered = || {
+            let (name, number) = node.entries().first()?;
+            Some((Spanned::new(name.value.as_str(), name.span), number.text().map(|text| text.value)))
+        };
+        let Some((name, number)) = node.text().map(|name| (name, None)).or_else(numbered) else { continue };
+        if let Some(first) = before.get(&(name.value, number)) {
+            diagnostics.push(
+                Diagnostic::new(
+                    codes::NAMED_TWICE,
+                    name.span,
+                    format!("`{}` stands twice in the list", shorten(name.value)),
+                )
+                .with(*first, "before")
+                .help("remove one of the two, or name what was meant"),
+            );
+        } else {
+            before.insert((name.value, number), name.span);
+        }
+    }
+}
+
 /// Checks a value of any shape.
 pub(super) fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Diagnostics) {
     match shape {
@@ -108,6 +154,7 @@ pub(super) fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Di
         Shape::MapOf(kind, value) => check_keyed(node, kind, *value, diagnostics),
         Shape::List(item) => match &node.kind {
             NodeKind::List(items) => {
+                check_set(items, *item, diagnostics);
                 for node in items {
                     let owner = start(node);
                     check(node, *item, owner, diagnostics);
@@ -135,6 +182,7 @@ pub(super) fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Di
         Shape::OneOrMore(item) => match &node.kind {
             NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
+                check_set(items, *item, diagnostics);
                 for node in items {
                     let owner = start(node);
                     check(node, *item, owner, diagnostics);

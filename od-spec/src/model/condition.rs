@@ -56,6 +56,18 @@ impl CompareOp {
         }
     }
 
+    /// The operator that accepts what this one does not.
+    pub const fn opposite(self) -> Self {
+        match self {
+            CompareOp::Less => CompareOp::GreaterOrEqual,
+            CompareOp::LessOrEqual => CompareOp::Greater,
+            CompareOp::Equal => CompareOp::NotEqual,
+            CompareOp::NotEqual => CompareOp::Equal,
+            CompareOp::GreaterOrEqual => CompareOp::Less,
+            CompareOp::Greater => CompareOp::LessOrEqual,
+        }
+    }
+
     /// The operator as written.
     pub const fn sign(self) -> &'static str {
         match self {

@@ -5,14 +5,15 @@ use std::collections::BTreeMap;
 
 use super::declared::Declared;
 use super::entries;
+use super::keys_have_effect::refuse as refuse_key;
 use super::refs::{Broken, Names};
 use super::surroundings::Surroundings;
 use super::types::words;
 use crate::ast::{EntryDecl, Name};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
-    AccessRight, Alias, Entry, EntryId, Fact, Index, Object, ObjectKind, Outside, PdoMapping, Ratio,
-    Rounding, Statement, Storage, SubIndex, Value, convert,
+    AccessRight, Alias, DataType, Entry, EntryId, Fact, Index, Object, ObjectKind, Outside, PdoMapping,
+    Ratio, Rounding, Statement, Storage, SubIndex, Value, convert,
 };
 use crate::source::Spanned;
 
@@ -143,6 +144,15 @@ fn alias(
         rounding: decl.rounding.map_or(Rounding::Down, |rounding| rounding.value),
         outside: decl.outside.map_or(Outside::Saturate, |outside| outside.value),
     };
+    if let Some(outside) = decl.outside.filter(|_| shows_all(entry.data_type, alias.factor, target)) {
+        refuse_key(
+            "outside",
+            outside.span,
+            "no value lies outside the view",
+            "remove it; the view shows all that its target can have",
+            diagnostics,
+        );
+    }
     follow(&mut entry, &alias, &decl.entry, target);
     entry.eds = entries::alias_policy(&entry, target.entry, &decl.entry, around.eds);
     entry.alias = Some(alias);
@@ -164,6 +174,15 @@ fn alias(
         entries: vec![entry],
         span: decl.index.span,
     })
+}
+
+/// Whether a view of a type shows every value of the type of its target.
+fn shows_all(shown: DataType, factor: Ratio, target: &Target<'_>) -> bool {
+    let shows = |raw: i128| {
+        convert(raw, factor, Rounding::Up, Outside::Abort, shown).is_some()
+            && convert(raw, factor, Rounding::Down, Outside::Abort, shown).is_some()
+    };
+    target.entry.data_type.range().is_some_and(|(low, high)| shows(low) && shows(high))
 }
 
 /// Reports what an alias cannot have.

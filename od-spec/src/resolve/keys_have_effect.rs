@@ -207,7 +207,7 @@ pub(super) fn check_written(
     }
 }
 
-fn refuse(key: &str, span: Span, why: &str, help: &str, diagnostics: &mut Diagnostics) {
+pub(super) fn refuse(key: &str, span: Span, why: &str, help: &str, diagnostics: &mut Diagnostics) {
     diagnostics.push(
         Diagnostic::new(codes::CONFLICTING_KEYS, span, format!("`{key}` has no effect here: {why}"))
             .help(help),

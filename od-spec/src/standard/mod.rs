@@ -8,6 +8,7 @@ use std::sync::LazyLock;
 
 use crate::ast::Spec;
 use crate::check::standard::continued;
+use crate::check::standard_objects::from_library::{CIA302, CIA401, CIA402};
 use crate::check::{Rule, Rules, Standard};
 use crate::decode::decode;
 use crate::diag::Diagnostics;
@@ -22,8 +23,10 @@ use crate::yaml;
 const RUNS: &str = include_str!("runs.od.yaml");
 
 static IN_LIBRARY: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped("cia301"));
-/// Asked only for a drive with an object that is not the library's.
-static OF_DRIVES: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped("cia402"));
+/// Asked only for an object that is not the library's.
+static OF_MANAGERS: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped(CIA302));
+static OF_IO_MODULES: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped(CIA401));
+static OF_DRIVES: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped(CIA402));
 /// Apart from the library, which takes much longer to read: every device with PDOs asks for these.
 static IN_RUNS: LazyLock<Option<Dictionary>> = LazyLock::new(|| resolved(&read(RUNS)?));
 
@@ -80,14 +83,20 @@ fn is_in_library(index: Index) -> bool {
     IN_LIBRARY.as_ref().is_some_and(|library| library.objects.contains_key(&index))
 }
 
-/// The object that CiA 402 defines at an index, as the first axis has it.
-fn of_drives(index: Index) -> Option<&'static Object> {
-    OF_DRIVES.as_ref()?.objects.get(&index)
+/// The object that a library of another standard than CiA 301 has at an index, as the first axis has it.
+fn in_library(library: &str, index: Index) -> Option<&'static Object> {
+    let library = match library {
+        CIA302 => &OF_MANAGERS,
+        CIA401 => &OF_IO_MODULES,
+        CIA402 => &OF_DRIVES,
+        _ => return None,
+    };
+    library.as_ref()?.objects.get(&index)
 }
 
 /// All rules or some of them, with this standard to hold objects against.
 pub(crate) const fn rules<'a>(list: &'a [&'a Rule]) -> Rules<'a> {
-    Rules { list, standard: Standard { object, is_in_library, of_drives }, format: FileFormat::Eds }
+    Rules { list, standard: Standard { object, is_in_library, in_library }, format: FileFormat::Eds }
 }
 
 #[cfg(test)]
@@ -96,7 +105,8 @@ mod tests {
 
     #[test]
     fn the_standards_are_read_without_a_remark() {
-        assert!(IN_LIBRARY.is_some() && IN_RUNS.is_some() && OF_DRIVES.is_some());
+        assert!(IN_LIBRARY.is_some() && IN_RUNS.is_some());
+        assert!(OF_MANAGERS.is_some() && OF_IO_MODULES.is_some() && OF_DRIVES.is_some());
     }
 
     #[test]

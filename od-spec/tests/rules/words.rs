@@ -377,6 +377,67 @@ fn faults_of_services() -> Vec<(&'static str, String)> {
     ]
 }
 
+/// Faults of what belongs together: conditions, areas, objects that act on others, ranges, drives.
+fn faults_of_relations() -> Vec<(&'static str, String)> {
+    let default = |value: &str| format!("DefaultValue={value}");
+    let drive = |object: String| var(0x1000, "device type", 7, "ro", "DefaultValue=0x20192") + &object;
+    let word = |index: u16, value: &str| var(index, &format!("object {index:X}"), 6, "rw", &default(value));
+    let long = |index: u16, value: &str| var(index, &format!("object {index:X}"), 7, "rw", &default(value));
+    let array = |index: u16, element: (u8, &str, &str), count: usize| {
+        structured(index, 8, ("const", &default(&count.to_string())), &vec![element; count])
+    };
+    vec![
+        ("OD0803", var(0x1017, "heartbeat", 6, "ro", "DefaultValue=0")),
+        (
+            "OD0831",
+            var(0x1000, "device type", 7, "ro", "DefaultValue=0x10191") + &array(0x6000, (6, "ro", ""), 1),
+        ),
+        (
+            "OD0880",
+            ";writable only while 0x2001 == 300\n".to_owned()
+                + &var(0x2000, "level", 5, "rw", "DefaultValue=0")
+                + &var(0x2001, "mode", 5, "rw", "DefaultValue=0"),
+        ),
+        (
+            "OD0880",
+            ";writable only while 0x2001 == 1\n".to_owned()
+                + &var(0x2000, "level", 5, "rw", "DefaultValue=0")
+                + ";writable only while 0x2000 == 1\n"
+                + &var(0x2001, "mode", 5, "rw", "DefaultValue=0"),
+        ),
+        ("OD0884", ";stored with the application parameters\n".to_owned() + &word(0x1017, "0")),
+        ("OD0886", long(0x1006, "10000") + &long(0x1007, "20000")),
+        ("OD0886", long(0x1006, "10")),
+        ("OD0887", word(0x1015, "0")),
+        ("OD0888", array(0x1F50, (15, "rw", ""), 2) + &array(0x1F51, (5, "rw", ""), 1)),
+        ("OD0889", var(0x1014, "COB-ID EMCY", 7, "const", "DefaultValue=$NODEID+0x80000080")),
+        (
+            "OD0891",
+            drive(structured(
+                0x607D,
+                8,
+                ("const", "DefaultValue=2"),
+                &[(4, "rw", "DefaultValue=1000"), (4, "rw", "DefaultValue=-1000")],
+            )),
+        ),
+        ("OD0892", drive(var(0x6502, "modes", 7, "ro", "DefaultValue=0"))),
+        ("OD0893", drive(word(0x6040, "0xF"))),
+        (
+            "OD0895",
+            word(0x1017, "1000")
+                + &word(0x100C, "100")
+                + &var(0x100D, "life time factor", 5, "rw", "DefaultValue=3"),
+        ),
+        (
+            "OD0896",
+            info("DynamicChannelsSupported=1")
+                + "[DynamicChannels]\nNrOfSeg=1\nType1=0x0005\nDir1=ro\nRange1=0xA080-0xA0BF\nPPOffset1=0\n\n"
+                + &var(0xA080, "level", 5, "ro", ""),
+        ),
+        ("OD0897", ";unit 0.1 degC from -2732 degC\n".to_owned() + &var(0x2000, "temperature", 5, "ro", "")),
+    ]
+}
+
 /// The same for DCF texts: what is set.
 fn faults_of_nodes() -> Vec<(&'static str, String)> {
     let set =
@@ -415,11 +476,12 @@ fn faults_of_nodes() -> Vec<(&'static str, String)> {
                 + &var(0x2001, "mode", 5, "rw", "DefaultValue=0\nParameterValue=120"),
         ),
         ("OD0814", pdo("1800sub2", "1")),
+        ("OD0824", levels() + &pdo_with_times(TPDO.index, "255\nParameterValue=1")),
     ]
 }
 
 /// Rules that nothing in an EDS or DCF can break, and why.
-const OUT_OF_REACH: [(&str, &str); 16] = [
+const OUT_OF_REACH: [(&str, &str); 21] = [
     ("OD0420", "it has no views of other entries"),
     ("OD0601", "an EDS has keys for the bit rates of CiA 301 alone"),
     ("OD0606", "it has no conditions between entries"),
@@ -436,6 +498,11 @@ const OUT_OF_REACH: [(&str, &str); 16] = [
     ("OD0876", "it has no list of error codes"),
     ("OD0877", "it has no list of error codes"),
     ("OD0879", "its PDOs are described in full"),
+    ("OD0881", "it has no views of other entries"),
+    ("OD0882", "its comments give a unit to numbers alone"),
+    ("OD0883", "its comments tell no base of a symbol"),
+    ("OD0885", "it does not say which objects are of a profile"),
+    ("OD0890", "it may be that of one device, which has a serial number"),
 ];
 
 #[test]
@@ -445,6 +512,7 @@ fn an_eds_is_spoken_of_in_its_own_words() {
         .into_iter()
         .chain(faults_of_times())
         .chain(faults_of_services())
+        .chain(faults_of_relations())
         .map(|(code, text)| (Language::Eds, code, text));
     let dcf = faults_of_nodes().into_iter().map(|(code, text)| (Language::Dcf, code, text));
     for (language, code, text) in eds.chain(dcf) {
@@ -461,8 +529,12 @@ fn an_eds_is_spoken_of_in_its_own_words() {
 
 #[test]
 fn every_rule_is_tried_with_an_eds() {
-    let all =
-        faults().into_iter().chain(faults_of_times()).chain(faults_of_services()).chain(faults_of_nodes());
+    let all = faults()
+        .into_iter()
+        .chain(faults_of_times())
+        .chain(faults_of_services())
+        .chain(faults_of_relations())
+        .chain(faults_of_nodes());
     let tried: BTreeSet<&str> = all.map(|(code, _)| code).collect();
     for rule in rules() {
         let is_out_of_reach = OUT_OF_REACH.iter().any(|(code, _)| *code == rule.id);

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use od_spec::model::{Fact, Index, System};
@@ -30,7 +31,7 @@ fn objects_of(text: &str, feature: &str) -> Vec<u16> {
 
 /// Warnings that a feature without its companions deserves: nothing that a mandatory feature would bring, objects for PDOs without
 /// PDOs, guarding beside a heartbeat, constants without the device's value, nothing to store, and a choice that the device has to make.
-const USEFUL_WITH_MORE: [&str; 6] = ["OD0801", "OD0802", "OD0803", "OD0805", "OD0809", "OD0837"];
+const USEFUL_WITH_MORE: [&str; 7] = ["OD0801", "OD0802", "OD0803", "OD0805", "OD0809", "OD0837", "OD0885"];
 
 /// The system, and the messages one per line.
 fn compiled(text: &str) -> (Option<System>, String) {
@@ -85,8 +86,9 @@ fn every_feature_can_be_taken_alone() {
         let features = keys(text, "features");
         assert!(features.len() > 15, "{features:?}");
         for feature in features {
-            let (system, messages) =
-                compiled(&head(name, &format!("heartbeat producer, {}", selected(text, &feature))));
+            let selected = selected(text, &feature);
+            let heartbeat = if selected == "heartbeat producer" { "" } else { "heartbeat producer, " };
+            let (system, messages) = compiled(&head(name, &format!("{heartbeat}{selected}")));
             let device = &system.unwrap_or_else(|| panic!("{feature}: {messages}")).devices[0];
             for index in objects_of(library(name), &feature) {
                 assert!(device.objects.contains_key(&Index(index)), "{feature}: {index:04X}h");
@@ -106,6 +108,7 @@ fn everything_of_cia402_on_two_axes_in_one_device() {
     let both = features.iter().cloned().chain(features.iter().map(|feature| format!("{feature} axis 2")));
     let both: Vec<String> = both.collect();
     let mut spec = head("cia402", &format!("heartbeat producer, emergency, {}", both.join(", ")));
+    spec = spec.replace("{name: Drive, ", "{name: Drive, device-type: 0x0002_0192, ");
     spec.push_str("objects:");
     spec.push_str(DEVICE_OBJECTS);
     let objects = keys(text, "objects");
@@ -150,8 +153,11 @@ fn everything_of_cia402_on_two_axes_in_one_device() {
 fn everything_of_cia302_and_cia401_in_one_device() {
     for (name, profile) in [("cia302", 0), ("cia401", 0x000F_0191)] {
         let text = library(name);
-        let features: Vec<String> =
-            keys(text, "features").iter().map(|feature| selected(text, feature)).collect();
+        let features: BTreeSet<String> = keys(text, "features")
+            .iter()
+            .flat_map(|feature| selected(text, feature).split(", ").map(str::to_owned).collect::<Vec<_>>())
+            .collect();
+        let features: Vec<String> = features.into_iter().collect();
         let mut spec = head(name, &format!("heartbeat producer, {}", features.join(", ")));
         spec = spec.replace("{name: Drive, ", &format!("{{name: Drive, device-type: {profile}, "));
         let pdos = "{receive: {1: {map: [0x6200.1]}}, transmit: {1: {map: [0x6000.1]}}}";

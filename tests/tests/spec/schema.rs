@@ -201,7 +201,7 @@ fn the_first_specification_of_the_reference_compiles_without_a_word() {
 #[test]
 fn the_other_pieces_of_the_reference_compile() {
     let head = "od-spec: 1\ntitle: t\nvendor: {name: v, number: 1}\nuses: [cia301, cia401, cia402]\n";
-    let pump = "devices: {pump: {name: Pump, bit-rates: [125], features: [heartbeat producer, drive, profile position mode]}}\n";
+    let pump = "devices: {pump: {name: Pump, bit-rates: [125], device-type: 0x0002_0192, features: [heartbeat producer, drive, profile position mode]}}\n";
     for piece in &yaml_of_reference()[1..] {
         if is_parameter_file(piece) {
             check_parameters(piece);

@@ -8,4 +8,5 @@ rules! { Rule:
     commands_are_flagged,
     values_can_be_read_back,
     views_show_values,
+    views_show_their_target,
 }

@@ -5,7 +5,7 @@ use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Diagnostic, Example, Severity};
-use crate::model::Index;
+use crate::model::{Fact, Index};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -14,7 +14,8 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "neither heartbeat nor node guarding",
-    explanation: "CiA 301 demands one of the two: without them no master notices that the device has gone. Add the feature `heartbeat producer`.",
+    explanation: "CiA 301 demands one of the two: without them no master notices that the device has gone. The same holds where the time of the only one is 0 and nobody can write it. Add the feature \
+        `heartbeat producer`, or let its time be written.",
     clause: Some("CiA 301, objects 100Ch, 100Dh and 1017h"),
     example: Some(Example::new(
         "devices:\n  io: {name: Example, bit-rates: [125]}",
@@ -34,5 +35,26 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             eds: "add 1017h, the producer heartbeat time",
             setting: "the device has to have one of the two",
         })));
+        return;
+    }
+    let off = |index: u16| {
+        subject.parameter(index, 0).filter(|time| time.raw() == 0 && !time.entry.access.is_writable())
+    };
+    let can_watch = guarding && off(0x100C).is_none() && off(0x100D).is_none();
+    if can_watch || has(0x1017) && off(0x1017).is_none() {
+        return;
+    }
+    if let Some(time) = [0x1017, 0x100C, 0x100D].into_iter().find_map(off) {
+        let message = format!(
+            "{} ({}) is 0 and cannot be written: nothing watches the device",
+            time.id, time.entry.name
+        );
+        findings.push(subject.finding(CODE, time.id, time.entry, Fact::Access, message).help(subject.help(
+            Help {
+                specification: "make the entry `rw`, or write another time",
+                eds: "let the entry be writable, or write another time",
+                setting: "the device has to have another time there",
+            },
+        )));
     }
 }

@@ -17,4 +17,6 @@ rules! { Rule:
     predefined_cob_ids_are_kept,
     heartbeats_of_others_are_watched,
     sdo_clients_talk_to_one_server,
+    sync_times_are_possible,
+    one_error_control_is_used,
 }

@@ -41,7 +41,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 /// The values of all devices, as a condition sees them from one: what it names without a device is that one's.
 #[derive(Clone, Copy)]
 pub(in crate::check) struct View<'a> {
-    subject: Subject<'a>,
+    pub subject: Subject<'a>,
     pub from: &'a str,
 }
 
@@ -80,6 +80,11 @@ impl View<'_> {
             Outcome::Fails { left, op, right } => Some(Broken { left, op, right }),
             Outcome::Holds | Outcome::Unknown => None,
         }
+    }
+
+    /// Whether the values break a constraint.
+    pub(in crate::check) fn is_broken(&self, constraint: &Constraint) -> bool {
+        self.broken(constraint).is_some()
     }
 
     /// Why a constraint is not decided: a part of its `when` that cannot be worked out, or of what that asks for.

@@ -6,4 +6,5 @@ use crate::rules::rules;
 rules! { Rule:
     constraints_hold,
     constraints_are_computable,
+    conditions_are_open,
 }

@@ -1,5 +1,6 @@
 //! The device type of an I/O module tells which kinds of channels it has.
 
+use crate::check::device::device_type_is_kept::IO_MODULES;
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
@@ -25,10 +26,8 @@ const CODE: &Code = &Code {
     )),
 };
 
-/// Number of the profile for I/O modules.
-const IO_MODULES: i128 = 401;
 /// Kinds of channels, from bit 16 on, and the objects that hold their values.
-const KINDS: [(&str, &[u16]); 4] = [
+pub(in crate::check) const KINDS: [(&str, &[u16]); 4] = [
     ("digital inputs", &[0x6000, 0x6020, 0x6100, 0x6120]),
     ("digital outputs", &[0x6200, 0x6220, 0x6300, 0x6320]),
     ("analogue inputs", &[0x6400, 0x6401, 0x6402, 0x6403, 0x6404]),

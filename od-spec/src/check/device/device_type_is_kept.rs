@@ -1,5 +1,7 @@
 //! A device has what its device type promises: the objects of every drive, the types of the profiles that it unites.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::check::findings::Findings;
 use crate::check::help::Help;
 use crate::check::rule::{Check, Needs, Rule};
@@ -15,17 +17,19 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "a device type without its objects",
     explanation: "The low word of 1000h names a device profile, and masters that know the profile use its objects without looking: for 402, a drive, controlword, statusword, \
-        mode of operation and its display (6040h, 6041h, 6060h, 6061h). A high word of FFFFh says that several profiles are united, each of which tells its own type in 67FFh, \
+        mode of operation and its display (6040h, 6041h, 6060h, 6061h; of a second axis 6840h and so on). A high word of FFFFh says that several profiles are united, each of which tells its own type in 67FFh, \
         6FFFh and so on. Some of these objects are missing. Add them, or correct `device-type:`.",
     clause: Some("CiA 301, object 1000h; CiA 402, objects that every drive has"),
     example: Some(Example::new(
         "devices:\n  io: {name: Example, bit-rates: [125], device-type: 0x00020192, features: [heartbeat producer]}",
-        "uses: [cia301, cia402]\ndevices:\n  io: {name: Example, bit-rates: [125], device-type: 0x00020192, features: [heartbeat producer, drive]}\npdos:\n  io: {receive: {1: {map: [0x6040]}}, transmit: {1: {map: [0x6041]}}}\nobjects:\n  0x6502: {from: cia402, default: 0}",
+        "uses: [cia301, cia402]\ndevices:\n  io: {name: Example, bit-rates: [125], device-type: 0x00020192, features: [heartbeat producer, drive]}\npdos:\n  io: {receive: {1: {map: [0x6040]}}, transmit: {1: {map: [0x6041]}}}\nobjects:\n  0x6502: {from: cia402, default: 0x0001_0000}",
     )),
 };
 
+/// Number of the profile for I/O modules.
+pub(in crate::check) const IO_MODULES: i128 = 401;
 /// Number of the profile for drives.
-const DRIVES: i128 = 402;
+pub(in crate::check) const DRIVES: i128 = 402;
 /// Controlword, statusword, mode of operation and its display; error code and supported modes are optional in version 2.
 const OF_EVERY_DRIVE: [u16; 4] = [0x6040, 0x6041, 0x6060, 0x6061];
 /// The type of the first of several profiles; the others follow each 800h.
@@ -40,21 +44,31 @@ const fn is_united(device_type: i128) -> bool {
     device_type >> 16 == 0xFFFF
 }
 
-/// The first index of each axis that is a drive.
-pub(in crate::check) fn axes_of_drives(subject: &Subject<'_>) -> Vec<Index> {
-    let Some(device_type) = subject.parameter(0x1000, 0).map(|parameter| parameter.raw()) else {
-        return Vec::new();
-    };
-    let is_drive = |device_type: i128| device_type & 0xFFFF == DRIVES;
-    let is_axis = |axis: &u16| {
-        if is_united(device_type) {
-            let of_axis = subject.parameter(FIRST_TYPE + axis * AXIS, 0);
-            of_axis.is_some_and(|parameter| is_drive(parameter.raw()))
-        } else {
-            *axis == 0 && is_drive(device_type)
-        }
-    };
-    (0..AXES).filter(is_axis).map(|axis| Index(0x6000 + axis * AXIS)).collect()
+/// The profiles that the device type names, by the first index of each; 0 for none.
+pub(in crate::check) fn profiles(subject: &Subject<'_>) -> BTreeMap<Index, i128> {
+    let number = |index: u16| subject.parameter(index, 0).map(|parameter| parameter.raw());
+    let Some(device_type) = number(0x1000) else { return BTreeMap::new() };
+    if !is_united(device_type) {
+        return BTreeMap::from([(Index(0x6000), device_type & 0xFFFF)]);
+    }
+    let of_axis = |axis: u16| Some((Index(0x6000 + axis * AXIS), number(FIRST_TYPE + axis * AXIS)? & 0xFFFF));
+    (0..AXES).filter_map(of_axis).collect()
+}
+
+/// The first index of each axis that is of a profile.
+pub(in crate::check) fn axes(subject: &Subject<'_>, profile: i128) -> Vec<Index> {
+    profiles(subject).into_iter().filter(|(_, number)| *number == profile).map(|(first, _)| first).collect()
+}
+
+/// The first index of each axis that is a drive, also where the device type names the first one alone: CiA 402 puts the objects
+/// of the next axis 800h behind.
+fn axes_with_objects(subject: &Subject<'_>) -> BTreeSet<Index> {
+    let drives = axes(subject, DRIVES);
+    let further = (1..AXES).map(|axis| Index(0x6000 + axis * AXIS)).filter(|first| {
+        let has = |index: &u16| subject.device.objects.contains_key(&Index(index - 0x6000 + first.0));
+        drives.first() == Some(&Index(0x6000)) && OF_EVERY_DRIVE.iter().any(has)
+    });
+    drives.iter().copied().chain(further).collect()
 }
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
@@ -67,7 +81,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         vec![Index(FIRST_TYPE).to_string()]
     } else {
         let of_axis = |first: Index| OF_EVERY_DRIVE.map(|index| Index(index - 0x6000 + first.0));
-        let demanded = axes_of_drives(subject).into_iter().flat_map(of_axis);
+        let demanded = axes_with_objects(subject).into_iter().flat_map(of_axis);
         demanded.filter(lacks).map(|index| index.to_string()).collect()
     };
     if missing.is_empty() {

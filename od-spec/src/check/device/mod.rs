@@ -8,4 +8,6 @@ rules! { Rule:
     device_type_is_kept,
     channels_are_in_the_device_type,
     vendor_has_a_number,
+    objects_are_of_the_profile,
+    serial_number_is_left_open,
 }

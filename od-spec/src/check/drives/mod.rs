@@ -6,7 +6,8 @@ use super::rule::Rule;
 use crate::rules::rules;
 
 rules! { Rule:
-    drive_objects_keep_their_type,
     drive_modes_have_their_objects,
     drive_modes_are_listed,
+    drive_values_mean_something,
+    drives_start_at_rest,
 }

@@ -1,6 +1,6 @@
 //! The modes of operation of drives: what rules about 6502h and 6060h read.
 
-use crate::check::device::device_type_is_kept::axes_of_drives;
+use crate::check::device::device_type_is_kept::{self, DRIVES};
 use crate::check::pdo::parameters::Parameter;
 use crate::check::subject::Subject;
 use crate::model::Index;
@@ -80,5 +80,5 @@ pub(in crate::check) fn axes<'a>(subject: &Subject<'a>) -> Vec<Axis<'a>> {
         let supported = subject.parameter(first.0 - 0x6000 + 0x6502, 0)?;
         Some(Axis { first, supported })
     };
-    axes_of_drives(subject).into_iter().filter_map(axis).collect()
+    device_type_is_kept::axes(subject, DRIVES).into_iter().filter_map(axis).collect()
 }

@@ -5,7 +5,7 @@ use crate::check::pdo::parameters::{target, title};
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Example, Severity};
-use crate::model::PdoTarget;
+use crate::model::{Direction, PdoTarget};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "an entry twice in one PDO",
-    explanation: "One PDO maps the same entry at two places. A TPDO would send it twice and waste the room; in an RPDO the second value overwrites the first. Probably another entry \
+    explanation: "One PDO maps the same entry at two places. A TPDO would send it twice and waste the room; in an RPDO the second value overwrites the first, also where it is written through a view of the entry. Probably another entry \
         was meant. Several PDOs may map one entry: a controlword travels in many. Map the entry that was meant.",
     clause: Some("CiA 301, objects 1600h and 1A00h (PDO mapping parameters)"),
     example: Some(Example::new(
@@ -29,7 +29,13 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         for parameter in subject.mapped(pdo) {
             let Some(mapped) = target(parameter.raw()) else { continue };
             // Placeholders fill gaps, of which there may be several.
-            let PdoTarget::Entry(id) = mapped.target else { continue };
+            let PdoTarget::Entry(mapped_id) = mapped.target else { continue };
+            // What is written through a view is the value of the entry behind it.
+            let view = subject.device.entry(mapped_id).and_then(|entry| entry.alias.as_ref());
+            let id = match (view, pdo.direction) {
+                (Some(alias), Direction::Receive) => alias.target,
+                (Some(_), Direction::Transmit) | (None, _) => mapped_id,
+            };
             let (at, place) = (parameter.id, parameter.place);
             let Some((first, first_place)) = before.insert(id, (at, place)) else { continue };
             let message = format!("{} maps {id} twice, at {first} and {at}", title(pdo));

@@ -60,11 +60,15 @@ fn unused(subject: &Subject<'_>, pdo: &Pdo, time: &Time) -> Option<Diagnostic> {
     let kind = if transmission.raw() <= 240 { "on SYNC" } else { "on remote frames" };
     let message =
         format!("{id}: {title} has {name}, but is sent {kind} (transmission type {})", transmission.raw());
-    Some(parameter.finding(CODE, message).help(subject.help(Help {
+    // What was set is blamed before what the device has.
+    let blamed =
+        if transmission.entry.is_set() && !parameter.entry.is_set() { &transmission } else { &parameter };
+    let finding = blamed.finding(CODE, message).help(subject.help(Help {
         specification: "leave the time out, or let `transmission:` be 254 or 255",
         eds: "write 0, or the transmission type 254 or 255",
         setting: "write 0, or the transmission type 254 or 255",
-    })))
+    }));
+    Some(if blamed.id == parameter.id { finding } else { finding.with(parameter.place, name) })
 }
 
 /// An event timer that the inhibit time outlasts. The timer counts ms, the inhibit time 100 µs.

@@ -6,8 +6,12 @@ use crate::model::{Fact, Object};
 
 /// The name of the library of CiA 301.
 pub(in crate::check) const CIA301: &str = "cia301";
+/// The name of the library of CiA 302.
+pub(crate) const CIA302: &str = "cia302";
+/// The name of the library of CiA 401.
+pub(crate) const CIA401: &str = "cia401";
 /// The name of the library of CiA 402.
-pub(in crate::check) const CIA402: &str = "cia402";
+pub(crate) const CIA402: &str = "cia402";
 
 /// Whether a device takes an object from the library of CiA 301. What it says otherwise then is noted as a departure (OD0811): the maker
 /// has seen the standard and decided, where the standard leaves a choice.

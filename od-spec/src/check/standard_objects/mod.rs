@@ -1,6 +1,6 @@
 //! Objects of CiA 301: which a device has, and whether they are as the standard has them.
 
-pub(in crate::check) mod from_library;
+pub(crate) mod from_library;
 
 use super::rule::Rule;
 use crate::rules::rules;
@@ -11,4 +11,9 @@ rules! { Rule:
     objects_need_each_other,
     mandatory_objects_exist,
     standard_access_is_kept,
+    profile_objects_keep_their_type,
+    objects_have_partners,
+    arrays_are_as_long,
+    functions_can_be_switched_on,
+    ranges_are_in_order,
 }

@@ -22,8 +22,8 @@ const CODE: &Code = &Code {
         the boot-up of the node ends there. Take the object from the library with `from: cia301`, or correct it.",
     clause: Some("CiA 301, table 47 and the descriptions of the objects 1000h to 1FFFh"),
     example: Some(Example::new(
-        "objects:\n  0x1015: {name: Inhibit time EMCY, type: unsigned32, access: rw, default: 0}",
-        "objects:\n  0x1015: {name: Inhibit time EMCY, type: unsigned16, access: rw, default: 0}",
+        "objects:\n  0x1002: {name: Manufacturer status register, type: unsigned16, access: ro}",
+        "objects:\n  0x1002: {name: Manufacturer status register, type: unsigned32, access: ro}",
     )),
 };
 

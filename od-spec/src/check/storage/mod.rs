@@ -6,4 +6,5 @@ use crate::rules::rules;
 rules! { Rule:
     constants_are_not_stored,
     stored_entries_can_be_stored,
+    areas_are_stored_apart,
 }

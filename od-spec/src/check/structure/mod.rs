@@ -6,6 +6,7 @@ use crate::rules::rules;
 rules! { Rule:
     counts_agree,
     structures_have_entries,
+    network_variables_have_their_indices,
     arrays_have_one_type,
     indices_in_object_areas,
     links_lead_somewhere,

@@ -15,4 +15,7 @@ rules! { Rule:
     real_values_are_kept,
     start_values_are_allowed,
     special_values_mean_one_thing,
+    units_measure_quantities,
+    symbols_keep_their_meaning,
+    quantities_are_possible,
 }

@@ -9,7 +9,7 @@ fn full(object: &str) -> String {
 
 /// A drive with further objects.
 fn drive(objects: &str) -> String {
-    with_modes("0", "", objects)
+    with_modes("0x10000", "", objects)
 }
 
 /// A drive with a value of 6502h, an enum `mode` that stands for the type of 6060h, and further objects.
@@ -181,7 +181,7 @@ fn modes() -> Vec<Case> {
         case::wrong(
             "homing of the second axis without its objects",
             with_modes(
-                "0",
+                "0x10000",
                 "",
                 "  0x67FF: {from: cia402, default: 0x00020192}\n  0x6FFF: {from: cia402, default: 0x00020192}\n  0x6D02: {from: cia402, default: 0x20}",
             )
@@ -272,7 +272,13 @@ pub(crate) fn right() -> Vec<Right> {
             "1022h of eight bits",
             "0x1021: {name: Store EDS, type: domain, access: ro}\n  0x1022: {name: Storage format, type: unsigned8, access: ro, default: 0}",
         ),
-        right("6040h of a device that is no drive", "0x6040: {name: Inputs, type: unsigned32, access: ro}"),
+        case::right(
+            "6040h of a device that is no drive",
+            format!(
+                "devices:\n  io: {{name: Example, bit-rates: [125], device-type: 410, features: [heartbeat producer]}}\n{}",
+                full("0x6040: {name: Inputs, type: unsigned32, access: ro}")
+            ),
+        ),
         of_drive("a drive as the library has it", ""),
         of_drive(
             "a target position in full",
@@ -301,16 +307,12 @@ pub(crate) fn right() -> Vec<Right> {
         case::right(
             "a drive that does not say its modes",
             drive("  0x6060: {from: cia402, default: 1}")
-                .replace("  0x6502: {from: cia402, default: 0}\n", "  0x6502: {from: cia402}\n"),
+                .replace("  0x6502: {from: cia402, default: 0x10000}\n", "  0x6502: {from: cia402}\n"),
         ),
         of_drive("a mode of version 2", "  0x6060: {from: cia402, access: wo}"),
         of_drive(
             "a polarity of 16 bits, about which sources disagree",
             "  0x607E: {name: polarity, type: unsigned16, access: rw, default: 0}",
-        ),
-        of_drive(
-            "6840h of a drive with one axis",
-            "  0x6840: {name: second word, type: unsigned32, access: rw}",
         ),
     ]
 }
