@@ -21,7 +21,7 @@ use crate::report::{Report, print};
 
 /// Reads entries. What cannot be read is told, and the others are read all the same.
 pub(super) fn read(args: &NodeReadArgs, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.node, report)?;
+    let described = Described::read(&args.spec, &args.node, report)?;
     let target = described.target(&args.node, None, report)?;
     let mut ids = Vec::new();
     for text in &args.entries {
@@ -81,7 +81,7 @@ fn entries(device: &Dictionary, text: &str) -> Result<Vec<EntryId>, Diagnostic> 
 
 /// Writes entries one after the other; ends with the first that fails.
 pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.node, report)?;
+    let described = Described::read(&args.spec, &args.node, report)?;
     let target = described.target(&args.node, None, report)?;
     let (mut sources, mut diagnostics) = (described.sources().clone(), Diagnostics::new());
     let mut of_line = |what: &str, text: &String| {

@@ -5,10 +5,12 @@ use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
 use od_bus::trace::Service;
+use od_spec::diag::{Diagnostic, codes};
 
 use super::confirm::ConfirmArgs;
 use crate::bus_nodes::NodesArgs;
 use crate::messages::{Format, Messages};
+use crate::report::{Report, node_id};
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeArgs {
@@ -87,9 +89,6 @@ pub(crate) struct LinkArgs {
 /// Which node, and what device it is.
 #[derive(Debug, Args)]
 pub(crate) struct OneNodeArgs {
-    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
-    pub spec: PathBuf,
-
     /// Key of the device [default: the only one]
     #[arg(long, value_name = "KEY")]
     pub device: Option<String>,
@@ -114,8 +113,34 @@ pub(crate) struct OneNodeArgs {
     pub link: LinkArgs,
 }
 
+/// Which nodes of a machine are left out.
+#[derive(Debug, Args)]
+pub(crate) struct SkipArgs {
+    /// Node of the machine that is left out, such as one that is not there; can be given several times
+    #[arg(long, value_name = "ID", conflicts_with = "node")]
+    skip: Vec<String>,
+}
+
+impl SkipArgs {
+    pub(super) fn ids(&self, report: &Report) -> Result<Vec<u8>, u8> {
+        self.skip.iter().map(|id| node_id(id).map_err(|diagnostic| report.refuse(diagnostic))).collect()
+    }
+
+    /// Demands that none is named, where a single node is meant.
+    pub(super) fn none(&self, report: &Report) -> Result<(), u8> {
+        if self.skip.is_empty() {
+            return Ok(());
+        }
+        let message = "`--skip` leaves out nodes of a machine, and this is about a single node";
+        Err(report.refuse(Diagnostic::without_place(codes::BAD_NODE_ID, message).help("remove `--skip`")))
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct NodeReadArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
     #[command(flatten)]
     pub node: OneNodeArgs,
 
@@ -126,6 +151,9 @@ pub(crate) struct NodeReadArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeWriteArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
     #[command(flatten)]
     pub node: OneNodeArgs,
 
@@ -147,6 +175,9 @@ pub(crate) struct NodeWriteArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeBackupArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
     #[command(flatten)]
     pub node: OneNodeArgs,
 
@@ -157,16 +188,25 @@ pub(crate) struct NodeBackupArgs {
     /// Replace files of these names
     #[arg(long)]
     pub force: bool,
+
+    #[command(flatten)]
+    pub skip: SkipArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeFileArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
     #[command(flatten)]
     pub node: OneNodeArgs,
 
     /// The parameter file; of a machine of a plant the directory with a file of each node
     #[arg(value_name = "FILE|DIR")]
     pub file: PathBuf,
+
+    #[command(flatten)]
+    pub skip: SkipArgs,
 }
 
 #[derive(Debug, Args)]

@@ -39,15 +39,16 @@ impl Had {
         judged: &BTreeSet<EntryId>,
         report: &Report,
     ) {
+        let mark = target.mark();
         let untold: Vec<_> = self.untold.iter().filter(|(id, _)| judged.contains(id)).collect();
         for (id, why) in untold.iter().take(NAMED) {
             let name = target.words().entry(*id);
             report.note(&format!(
-                "a rule looks at {name}, which cannot be read ({why}): it is taken to have its default"
+                "{mark}a rule looks at {name}, which cannot be read ({why}): it is taken to have its default"
             ));
         }
         if untold.len() > NAMED {
-            report.note(&format!("so are {} more entries that cannot be read", untold.len() - NAMED));
+            report.note(&format!("{mark}so are {} more entries that cannot be read", untold.len() - NAMED));
         }
     }
 }

@@ -10,7 +10,9 @@ mod keep;
 mod machine;
 mod monitor;
 mod network;
+mod outcome;
 mod reach;
+mod restore;
 
 use std::cell::OnceCell;
 use std::path::Path;
@@ -37,7 +39,7 @@ pub(crate) fn run(args: &NodeArgs, directory: &Path, report: &Report) -> u8 {
         NodeCommand::Write(args) => access::write(args, report),
         NodeCommand::Backup(args) => keep::backup(args, report),
         NodeCommand::Compare(args) => keep::compare(args, report),
-        NodeCommand::Restore(args) => keep::restore(args, report),
+        NodeCommand::Restore(args) => restore::restore(args, report),
         NodeCommand::Monitor(args) => monitor::monitor(args, directory, report),
         NodeCommand::Scan(args) => network::scan(args, report),
         NodeCommand::Nmt(args) => network::nmt(args, report),
@@ -73,15 +75,15 @@ struct Target<'a> {
 }
 
 impl Described {
-    fn read(args: &OneNodeArgs, report: &Report) -> Result<Self, u8> {
-        if plant_file::names_plant(&args.spec) {
-            return Machine::read(args, report).map(Self::Machine);
+    fn read(spec: &Path, args: &OneNodeArgs, report: &Report) -> Result<Self, u8> {
+        if plant_file::names_plant(spec) {
+            return Machine::read(spec, args, report).map(Self::Machine);
         }
         if args.machine.is_some() || args.site.is_some() {
             let help = "name a plant file, or leave out `--machine` and `--site`";
-            return Err(report.refuse(plant_file::no_plant(&args.spec, help)));
+            return Err(report.refuse(plant_file::no_plant(spec, help)));
         }
-        let spec = crate::specs::one(Some(&args.spec), Path::new("."), report)?;
+        let spec = crate::specs::one(Some(spec), Path::new("."), report)?;
         let (used, sources) = report.compile_with_sources(&spec).ok_or(ERRORS)?;
         Ok(Self::Devices { used: Box::new(used), sources, configured: Box::default() })
     }
