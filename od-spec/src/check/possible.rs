@@ -54,10 +54,7 @@ pub(in crate::check) fn bits(runs: &[Run], bit: u8) -> Vec<Run> {
     let above = |raw: i128| raw >> u32::from(bit).min(i128::BITS - 1);
     let mut values: Vec<i128> = runs
         .iter()
-        .flat_map(|(low, high)| match above(*low) == above(*high) {
-            true => vec![above(*low) & 1],
-            false => vec![0, 1],
-        })
+        .flat_map(|(low, high)| if above(*low) == above(*high) { vec![above(*low) & 1] } else { vec![0, 1] })
         .collect();
     values.sort_unstable();
     values.dedup();

@@ -143,9 +143,9 @@ fn for_writing(subject: &Subject<'_>, findings: &mut Findings) {
             break;
         }
         waiting.retain(|(id, ..)| !opened.contains(id));
-        opened.iter().for_each(|id| {
+        for id in &opened {
             knowledge.kept.remove(id);
-        });
+        }
     }
     for (id, entry, condition) in waiting {
         let message = format!("{id} ({}) can never be written", entry.name);

@@ -28,6 +28,12 @@ const CODE: &Code = &Code {
 const CONTROLWORD: u16 = 0x6040;
 const STATUSWORD: u16 = 0x6041;
 
+/// An entry, whether a value of it lets a drive run, and what that value does.
+type Moving = (u16, fn(i128) -> bool, &'static str);
+
+const MOVING: [Moving; 2] =
+    [(CONTROLWORD, enables, "enables operation"), (STATUSWORD, is_enabled, "says \"operation enabled\"")];
+
 /// Whether a controlword is the command "enable operation": bits 0 to 3, without the fault reset of bit 7.
 const fn enables(raw: i128) -> bool {
     raw & 0x8F == 0x0F
@@ -41,11 +47,7 @@ const fn is_enabled(raw: i128) -> bool {
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for first in axes(subject, DRIVES) {
         let on_axis = |index: u16| Index(index - 0x6000 + first.0);
-        let states: [(u16, fn(i128) -> bool, &str); 2] = [
-            (CONTROLWORD, enables, "enables operation"),
-            (STATUSWORD, is_enabled, "says \"operation enabled\""),
-        ];
-        for (index, moves, what) in states {
+        for (index, moves, what) in MOVING {
             let parameter = subject.parameter(on_axis(index).0, 0);
             let Some(word) = parameter.filter(|word| moves(word.raw())) else { continue };
             let message = format!("{} ({}) {what} after power-on", word.id, word.entry.name);

@@ -5,7 +5,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::diag::{Code, Example, Severity};
-use crate::model::{EntryId, Index, SubIndex};
+use crate::model::{EntryId, Index, Object, SubIndex};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -38,12 +38,16 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let index = Index(index - 0x6000 + first.0);
             ends.push((EntryId { index, sub: SubIndex(low) }, EntryId { index, sub: SubIndex(low + 1) }));
         };
-        PAIRS.iter().for_each(|index| pair(*index, 1));
-        SECOND_PAIRS.iter().for_each(|index| pair(*index, 3));
+        for index in PAIRS {
+            pair(index, 1);
+        }
+        for index in SECOND_PAIRS {
+            pair(index, 3);
+        }
     }
     for first in axes(subject, IO_MODULES) {
         let at = |index: u16| Index(index - 0x6000 + first.0);
-        let inputs = subject.device.objects.get(&at(LOWER)).into_iter().flat_map(|object| object.counted());
+        let inputs = subject.device.objects.get(&at(LOWER)).into_iter().flat_map(Object::counted);
         ends.extend(inputs.map(|entry| {
             (EntryId { index: at(LOWER), sub: entry.sub }, EntryId { index: at(UPPER), sub: entry.sub })
         }));
