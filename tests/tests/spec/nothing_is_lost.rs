@@ -114,6 +114,7 @@ impl Place {
     }
 }
 
+#[expect(clippy::too_many_lines, reason = "it is one table")]
 fn places() -> Vec<Place> {
     let object = |before: &str| format!("{OTHERS}  {before}");
     let mut places = vec![
