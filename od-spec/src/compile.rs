@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::ast::Spec;
+use crate::ast::{Spec, Untranslated};
 use crate::check;
 use crate::check::allowed::Allowed;
 use crate::decode;
@@ -40,6 +40,8 @@ pub struct Compiled {
     /// How much the text describes: objects as they are written, each of a run, and the entries of every device; also
     /// where an error keeps the model back. Memory and time grow with it.
     pub described: usize,
+    /// The texts of a specification that lack one of its languages, in the order of its keys, one language after the other.
+    pub untranslated: Vec<Untranslated>,
     /// Errors and warnings, sorted by place.
     pub diagnostics: Diagnostics,
 }
@@ -47,7 +49,7 @@ pub struct Compiled {
 impl Compiled {
     /// Nothing but messages.
     pub const fn refused(diagnostics: Diagnostics) -> Self {
-        Self { system: None, node: None, described: 0, diagnostics }
+        Self { system: None, node: None, described: 0, untranslated: Vec::new(), diagnostics }
     }
 }
 
@@ -233,6 +235,7 @@ fn resolved(
     let refused = strictness == Strictness::Standard && diagnostics.has_errors();
     Compiled {
         described: described(&spec, &system),
+        untranslated: Vec::new(),
         system: (!refused).then_some(system),
         node: node.filter(|_| !refused),
         diagnostics,
@@ -249,9 +252,11 @@ pub(crate) fn compile_with(
     let mut diagnostics = Diagnostics::new();
     let built = build(rules, sources, root, loader, &mut diagnostics);
     diagnostics.sort();
-    let (system, described) = built.map_or((None, 0), |(system, described)| (Some(system), described));
-    let system = system.filter(|_| !diagnostics.has_errors());
-    Compiled { system, node: None, described, diagnostics }
+    let Some(Built { system, described, untranslated }) = built else {
+        return Compiled::refused(diagnostics);
+    };
+    let system = (!diagnostics.has_errors()).then_some(system);
+    Compiled { system, node: None, described, untranslated, diagnostics }
 }
 
 fn described(spec: &Spec, system: &System) -> usize {
@@ -259,14 +264,22 @@ fn described(spec: &Spec, system: &System) -> usize {
     spec.objects.len() + entries
 }
 
-/// The model, right or not, and how much the text describes.
+/// What a specification becomes.
+struct Built {
+    /// The model, right or not.
+    system: System,
+    /// How much the text describes.
+    described: usize,
+    untranslated: Vec<Untranslated>,
+}
+
 fn build(
     rules: check::Rules<'_>,
     sources: &mut SourceMap,
     root: FileId,
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
-) -> Option<(System, usize)> {
+) -> Option<Built> {
     let spec = file(sources, root, &[], loader, diagnostics)?;
     // Without a library, everything that it would have brought would be reported as missing.
     let libraries = libraries(sources, &spec, loader, diagnostics)?;
@@ -276,8 +289,7 @@ fn build(
     }
     let mut allowed = Allowed::of(&spec, diagnostics);
     check::system(rules, &system, library.as_ref(), &mut allowed, diagnostics);
-    let described = described(&spec, &system);
-    Some((system, described))
+    Some(Built { described: described(&spec, &system), system, untranslated: spec.untranslated })
 }
 
 /// Reads a file and its parts. The tree, which is several times as large as the text, is gone afterwards.

@@ -46,6 +46,7 @@ mod parts;
 pub mod plant;
 mod resolve;
 mod rules;
+pub mod running_text;
 pub mod source;
 mod standard;
 mod text;
@@ -54,6 +55,7 @@ pub mod wording;
 pub mod xdd;
 pub mod yaml;
 
+pub use ast::Untranslated;
 pub use catalogue::{all_codes, code};
 pub use check::allowed::can_be_allowed;
 pub use check::codes as rule_codes;
@@ -76,7 +78,7 @@ pub use parameters::{
     is_parameter_file, parameter_file, settings, settings_of_map,
 };
 pub use parts::part_of;
-pub use text::{ascii, encoding, visible};
+pub use text::{ascii, encoding, file_name, visible};
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

@@ -43,6 +43,11 @@ impl Span {
         Span { end: other.end.max(self.end), ..self }
     }
 
+    /// Whether another span lies within this one.
+    pub(crate) fn contains(self, other: Span) -> bool {
+        self.file == other.file && self.start <= other.start && other.end <= self.end
+    }
+
     /// A part of this span, given in bytes relative to its start.
     pub fn part(self, start: usize, end: usize) -> Span {
         let at = |offset: usize| {

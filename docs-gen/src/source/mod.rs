@@ -1,8 +1,6 @@
 //! The model in front of the printer: chosen devices, language, what refers to what, and links.
 
 pub(crate) mod conditions;
-pub(crate) mod indices;
-pub(crate) mod mentions;
 mod numbers;
 pub(crate) mod outline;
 pub(crate) mod series;
@@ -17,12 +15,12 @@ use od_spec::model::{
     BitErrors, BitField, Departure, Devices, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace,
     Fact, Index, Object, Part, Storage, System, SystemSource, Text, TypeKind,
 };
+use od_spec::running_text::{Written, indices};
 use od_spec::wording::{self, Wording, filled};
 
 use crate::language::{Language, Word};
 use crate::options::Options;
-use crate::source::indices::Written;
-use crate::source::mentions::Numbers;
+use crate::source::numbers::Numbers;
 use crate::source::outline::Outline;
 use crate::source::series::title;
 use crate::view::cell::{entry_anchor, object_anchor, slug};
@@ -318,7 +316,7 @@ impl<'a> Source<'a> {
 
     /// The indices of objects shown in a text, each as a link.
     fn links_to_objects(&self, devices: &Devices, text: &str) -> impl Iterator<Item = (Range<usize>, Cell)> {
-        indices::written(text).filter_map(move |one| {
+        indices(text).filter_map(move |one| {
             let has_it = self.led_to(devices, one.id.index).next().is_some();
             let devices = if has_it { devices } else { &Devices::All };
             let (end, anchor) = self.named_in_text(devices, one)?;

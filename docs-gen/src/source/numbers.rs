@@ -5,14 +5,18 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 
+use od_spec::running_text::{Numbered, mentions};
+
 use crate::source::Source;
-use crate::source::mentions::{self, Numbered};
 use crate::view::{Cell, Target};
+
+/// Where each number stands in a document; filled when the first text names one.
+pub(crate) type Numbers = OnceCell<BTreeMap<(Numbered, String), Target>>;
 
 impl Source<'_> {
     /// The numbers in a text that the document has, each as a link.
     pub(crate) fn links_to_numbers(&self, text: &str) -> impl Iterator<Item = (Range<usize>, Cell)> {
-        mentions::found(text).into_iter().filter_map(|mention| {
+        mentions(text).into_iter().filter_map(|mention| {
             let numbers = self.numbers.get_or_init(|| self.numbers_shown());
             let Target { anchor, page } = numbers.get(&(mention.kind, mention.number.to_owned()))?.clone();
             Some((mention.range.clone(), Cell::default().link(&text[mention.range], anchor, page)))

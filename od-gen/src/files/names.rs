@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use od_spec::file_name::is_device;
 use od_spec::visible::is_hidden;
 
 /// What is wrong with a path that an output asks for, in words; its parts are separated by `/`.
@@ -39,18 +40,6 @@ fn part_problem(part: &str) -> Option<String> {
     }
     let before_dot = part.split('.').next().unwrap_or_default().trim_end();
     is_device(before_dot).then(|| format!("Windows keeps the name `{before_dot}` for a device of its own"))
-}
-
-/// `CON`, `NUL`, `COM1`: names that no file can have on Windows, whatever the ending.
-fn is_device(name: &str) -> bool {
-    let name = name.to_ascii_uppercase();
-    let numbered = |kind: &str| {
-        let mut rest = name.strip_prefix(kind).unwrap_or_default().chars();
-        matches!((rest.next(), rest.next()), (Some('0'..='9' | '¹' | '²' | '³'), None))
-    };
-    matches!(name.as_str(), "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$")
-        || numbered("COM")
-        || numbered("LPT")
 }
 
 #[cfg(test)]

@@ -80,18 +80,26 @@ macro_rules! entry_decl {
                 }
             }
 
+            /// The keys written here, each with its place, the fact that it states, and how far it reaches.
+            fn keys(&self) -> impl Iterator<Item = (Spanned<&'static str>, Fact, Reach)> {
+                let places = [$($(($key, Fact::$fact, Reach::$reach, self.$field.as_ref().map(|fact| fact.span)),)+)+];
+                let stated = places.into_iter();
+                stated.filter_map(|(key, fact, reach, span)| Some((Spanned::new(key, span?), fact, reach)))
+            }
+
             /// The keys written here that are about one value, each with its place.
             pub(crate) fn about_one_value(&self) -> impl Iterator<Item = Spanned<&'static str>> {
-                let places = [$($(($key, Reach::$reach, self.$field.as_ref().map(|fact| fact.span)),)+)+];
-                let about_value = places.into_iter().filter(|(_, reach, _)| *reach == Reach::Value);
-                about_value.filter_map(|(key, _, span)| Some(Spanned::new(key, span?)))
+                self.keys().filter(|(.., reach)| *reach == Reach::Value).map(|(key, ..)| key)
+            }
+
+            /// The keys written here, each with its place, and the fact that it states.
+            pub(crate) fn stated(&self) -> impl Iterator<Item = (Spanned<&'static str>, Fact)> {
+                self.keys().map(|(key, fact, _)| (key, fact))
             }
 
             /// Where each fact is written, and whether by the maker, whose file is `maker`.
             pub(crate) fn facts(&self, maker: FileId) -> Facts {
-                let places = [$($((Fact::$fact, self.$field.as_ref().map(|fact| fact.span)),)+)+];
-                let stated = places.into_iter().filter_map(|(fact, span)| Some((fact, span?)));
-                stated.map(|(fact, span)| (fact, Statement::written(span, maker))).collect()
+                self.keys().map(|(key, fact, _)| (fact, Statement::written(key.span, maker))).collect()
             }
 
             /// The facts written here that differ from those below.
@@ -106,6 +114,18 @@ macro_rules! entry_decl {
     };
 }
 entry_keys!(entry_decl);
+
+impl EntryDecl {
+    /// Whether its default says something for a device.
+    pub(crate) fn is_for(&self, device: Option<&str>) -> bool {
+        match self.default.as_ref().map(|default| &default.value) {
+            Some(DefaultDecl::ByDevice(values)) => {
+                values.iter().any(|(key, _)| Some(key.value.as_str()) == device)
+            }
+            Some(DefaultDecl::One(_) | DefaultDecl::Each(_)) | None => true,
+        }
+    }
+}
 
 /// A place of the maker's as it is; of any other, the place at which the maker refers to it.
 pub(crate) fn adopted(written: Span, maker: FileId, place: Span) -> Span {

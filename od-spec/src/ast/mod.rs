@@ -8,6 +8,7 @@ mod setting;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
+use crate::diag::{Diagnostic, codes, shorten};
 use crate::expr::{AnyName, Expr, without_names};
 use crate::keys::{
     any_error_keys, axis_keys, block_keys, channel_keys, command_keys, constraint_keys, device_keys,
@@ -19,6 +20,7 @@ use crate::model::{
     Access, BitPattern, BitUsage, ByDevice, Date, DateTime, Direction, Edge, EditorNotes, ErratumKind,
     ErrorKind, Index, Outside, PdoMapping, ProseKind, Ratio, Rounding, Series, SubIndex, Text,
 };
+use crate::running_text::Numbered;
 use crate::source::{FileId, Span, Spanned};
 
 pub(crate) use entry::{BitErrorDecl, DefaultDecl, EdsDecl, EntryDecl, SpecialDecl, adopted};
@@ -26,8 +28,8 @@ pub(crate) use pdos::{
     MappingKind, PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
 };
 
-pub(crate) use setting::Reference;
 pub use setting::SettingDecl;
+pub(crate) use setting::{CONSUMER_KEYS, Reference};
 
 pub(crate) type Words = Option<Spanned<Text>>;
 pub(crate) type Name = Spanned<String>;
@@ -76,6 +78,10 @@ pub(crate) struct Spec {
     pub constraints: Vec<ConstraintDecl>,
     pub errata: Vec<ErratumDecl>,
     pub sections: Vec<SectionDecl>,
+    /// What the texts name.
+    pub mentions: Vec<TextMention>,
+    /// The texts that lack a language.
+    pub untranslated: Vec<Untranslated>,
     pub front_end: FrontEnd,
 }
 
@@ -86,6 +92,41 @@ impl Spec {
             [] => vec!["en".to_owned()],
             languages => languages.iter().map(|language| language.value.clone()).collect(),
         }
+    }
+}
+
+/// What a text names.
+#[derive(Debug)]
+pub(crate) struct TextMention {
+    /// The place of the text.
+    pub place: Span,
+    pub named: Named,
+}
+
+/// Something that a text can name.
+#[derive(Debug)]
+pub(crate) enum Named {
+    /// A table, figure or section, with its number.
+    Numbered(Numbered, String),
+    /// An object.
+    Object(Index),
+}
+
+/// A text that lacks one of the languages of its specification.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Untranslated {
+    /// The place of the text.
+    pub place: Span,
+    /// The code of the language.
+    pub language: String,
+}
+
+impl Untranslated {
+    /// The finding about this text alone.
+    pub fn note(&self) -> Diagnostic {
+        let message = format!("this text is not in `{}`", shorten(&self.language));
+        Diagnostic::new(codes::ONE_LANGUAGE, self.place, message)
     }
 }
 
@@ -354,7 +395,14 @@ pub(crate) struct ObjectDecl {
 }
 
 impl ObjectDecl {
-    /// The entries that are written one by one, with their sub-indices; of a VAR there is none.
+    /// The entries that are written one by one; of a VAR there is none.
+    pub(crate) fn written(&self) -> impl Iterator<Item = &EntryDecl> {
+        let elements = self.array.iter().flat_map(|array| &array.elements);
+        let members = self.record.iter().flat_map(|record| &record.members);
+        self.sub0.as_deref().into_iter().chain(elements.chain(members).map(|(_, entry)| entry))
+    }
+
+    /// [`written`](Self::written), with their sub-indices.
     pub(crate) fn entries_mut(&mut self) -> impl Iterator<Item = (SubIndex, &mut EntryDecl)> {
         let elements = self.array.iter_mut().flat_map(|array| &mut array.elements);
         let members = self.record.iter_mut().flat_map(|record| &mut record.members);

@@ -3,6 +3,9 @@
 use super::{DefaultDecl, Name};
 use crate::source::{Span, Spanned};
 
+/// The keys of a heartbeat consumer, the value of an entry of 1016h: `{node: 7, time: 1000 ms}`.
+pub(crate) const CONSUMER_KEYS: [&str; 2] = ["node", "time"];
+
 /// A setting as it is written: which entry, and its value.
 #[derive(Debug, Clone)]
 pub struct SettingDecl {
@@ -36,15 +39,19 @@ impl SettingDecl {
             value: value.clone(),
             span: key.span.to(value.span),
         };
+        // `1016.1: {node: 7, time: 1 s}` is the value of one entry.
+        let is_value = |members: &[(Name, Spanned<DefaultDecl>)]| {
+            key.value.contains('.') && members.iter().all(|(name, _)| CONSUMER_KEYS.contains(&&*name.value))
+        };
         match &value.value {
-            DefaultDecl::ByDevice(members) => members
+            DefaultDecl::ByDevice(members) if !is_value(members) => members
                 .iter()
                 .map(|(entry, value)| {
                     let reference = Reference::Member { object: key.clone(), entry: entry.clone() };
                     one(reference, entry, value)
                 })
                 .collect(),
-            DefaultDecl::One(_) | DefaultDecl::Each(_) => {
+            DefaultDecl::One(_) | DefaultDecl::Each(_) | DefaultDecl::ByDevice(_) => {
                 vec![one(Reference::Whole(key.clone()), key, value)]
             }
         }

@@ -19,6 +19,8 @@ pub(crate) mod communication;
 pub(crate) mod constraints;
 pub(crate) mod device;
 pub(crate) mod drives;
+pub(crate) mod errors;
+pub(crate) mod machines;
 pub(crate) mod names;
 pub(crate) mod pdo;
 pub(crate) mod settings;
@@ -93,6 +95,8 @@ pub(crate) static RULES: LazyLock<Vec<&'static Rule>> = LazyLock::new(|| {
         standard_objects::RULES,
         device::RULES,
         drives::RULES,
+        machines::RULES,
+        errors::RULES,
     ];
     let mut rules: Vec<&Rule> = areas.into_iter().flatten().collect();
     rules.sort_by_key(|rule| rule.code);

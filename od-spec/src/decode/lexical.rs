@@ -2,6 +2,7 @@
 
 use crate::ast::plant::MachineKey;
 use crate::ast::{BaseDecl, BitRange, CodeRange, IndexRange, NumberRange, SubIndexRange};
+use crate::file_name::is_device;
 use crate::model::{
     Access, AccessRight, BitPattern, Date, DateTime, EntryId, Index, PatternBit, Ratio, SubIndex,
 };
@@ -119,6 +120,7 @@ pub(crate) fn is_place(text: &str) -> bool {
     letters.next().is_some_and(|first| first.is_ascii_alphanumeric())
         && letters.all(|c| c.is_ascii_alphanumeric() || matches!(c, b'-' | b'_'))
         && text.len() <= 32
+        && !is_device(text)
 }
 
 /// `crane-A`, `17`, or `1..200`: machines by name or number.

@@ -10,6 +10,7 @@ mod languages;
 pub(crate) mod lexical;
 mod machines;
 mod manual;
+mod named;
 mod numbered;
 mod objects;
 mod parameters;
@@ -18,6 +19,7 @@ mod plant;
 mod read;
 mod shape;
 mod spec;
+mod texts;
 mod types;
 
 pub use lexical::is_device_key;
@@ -46,7 +48,12 @@ pub(crate) fn check_shape(node: &Node, shape: Shape, diagnostics: &mut Diagnosti
 /// in all of theirs.
 pub(crate) fn read(root: &Node, shown: &[String], diagnostics: &mut Diagnostics) -> Spec {
     languages::check(root, &keys::SPEC, diagnostics);
-    spec::read(root, shown, diagnostics)
+    let spec = spec::read(root, shown, diagnostics);
+    if !shown.is_empty() {
+        return spec;
+    }
+    let untranslated = languages::untranslated(root, &keys::SPEC, diagnostics);
+    Spec { untranslated, mentions: named::read(root, &keys::SPEC), ..spec }
 }
 
 /// [`check`], then [`read()`]: a file without parts.

@@ -305,7 +305,9 @@ const fn key_words(kind: KeyKind) -> &'static str {
     match kind {
         KeyKind::Name | KeyKind::Device => "names",
         KeyKind::DeviceKey => "short keys of lower-case letters, digits and `-`, such as `pmc`",
-        KeyKind::Place => "names of letters, digits, `-` and `_`, such as `A` or `hall-2`",
+        KeyKind::Place => {
+            "names of letters, digits, `-` and `_`, such as `A` or `hall-2`; not `CON` and others that Windows keeps"
+        }
         KeyKind::Machines => "names or numbers such as `17`, or runs such as `1..200`",
         KeyKind::Language => "language codes such as `en`",
         KeyKind::Indices => "indices such as `0x6040`, 0001h to FFFFh, or runs such as `0x3511..0x3519`",

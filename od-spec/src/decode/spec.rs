@@ -61,6 +61,8 @@ pub(super) fn read(root: &Node, shown: &[String], diagnostics: &mut Diagnostics)
         constraints: constraints(top, diagnostics),
         errata: top.items("errata").map(|r| erratum(r, diagnostics)).collect(),
         sections: top.items("document").map(|item| section(item, diagnostics)).collect(),
+        mentions: Vec::new(),
+        untranslated: Vec::new(),
         front_end: FrontEnd::Specification,
         languages,
     }

@@ -91,7 +91,7 @@ codes! {
     DUPLICATE_SUB_INDEX Error "OD0302" "a sub-index is defined twice":
         "Two entries of one object have one sub-index, perhaps in two notations (`10` and `0x0A`)."
     DUPLICATE_VALUE Error "OD0304" "a number stands for two things":
-        "Two values of an enum, two special values, two transitions, two error codes, two tables or two figures have one number."
+        "Two values of an enum, two special values, two transitions, two error codes, two tables or two figures have one number, or a bit reports one error code twice."
     NO_DEVICE Error "OD0305" "no device":
         "Without a device there is no dictionary to build. Add `devices:`; a file that is meant to be used by others needs `profile:` instead."
     UNKNOWN_DEVICE Error "OD0306" "an unknown device":
@@ -149,7 +149,7 @@ codes! {
     DUPLICATE_PDO Error "OD0501" "a PDO is defined twice":
         "Two PDOs of one device and direction have one number."
     PATTERN_WIDTH Error "OD0603" "a bit pattern of the wrong width":
-        "A state or command pattern has one place for each bit of the entry it describes."
+        "A state or command pattern has one place for each bit of the entry it describes, which is of an integer type: the bits of a text, a REAL or a time stand for no states."
     COMMAND_MISMATCH Error "OD0604" "a command code against its pattern":
         "The value under `send:` does not have the bits that `pattern:` demands."
     AMBIGUOUS_STATES Error "OD0605" "states that look the same":
@@ -209,7 +209,7 @@ codes! {
     ACCESS_FAILED Error "OD0716" "an access to a node that failed":
         "`odgen node` asked a node on a bus to read or write an entry. Either the node refused: the message has its abort code, in numbers and in words. A value may be right by itself and refused in the present state of the device, as while it is locked, or because of what another entry holds. Or it did not answer: it is switched off or stopped, has another node-ID, or the bus has another bit rate. Or it took the value, and has another one when it is read back. What was written before is written; the message says what was not."
     OTHER_DEVICE Error "OD0717" "a node that is another device":
-        "`odgen node` asks a node first what it is: its device type (1000h), vendor (1018h.1), product code (1018h.2) and revision (1018h.3), as far as the specification states them, and its serial number (1018h.4), where the plant or the parameter file does. This node says otherwise. On another device the same indices can mean other things, with other units and limits, so that nothing is read from it or written to it under the names of this one. Name the specification and the device of the node, or the right node-ID; `--any-device` goes on all the same."
+        "`odgen node` asks a node first what it is: its device type (1000h), vendor (1018h.1), product code (1018h.2) and revision (1018h.3), as far as the specification states them, and its serial number (1018h.4), where the plant or the parameter file does. This node says otherwise. A higher minor revision (the lower 16 bits) is compatible by CiA 301 and accepted. On another device the same indices can mean other things, with other units and limits, so that nothing is read from it or written to it under the names of this one. Name the specification and the device of the node, or the right node-ID. `--any-serial` accepts another serial number, as a spare part has it, `--any-revision` another revision; `--any-device` asks nothing."
     NO_TERMINAL Error "OD0718" "something that needs a terminal":
         "`odgen serve --watch` draws on the terminal and takes its keys. Standard input and output have to be that terminal, and no file or pipe; a script comes from a file then, and not from standard input. `odgen serve --log` tells every frame in words without a terminal, and `odgen node monitor` tells what changes on any bus. Commands of `odgen node` that change a node show the changes first and ask at the terminal. Scripts use `--yes`, or `--dry-run` to see the changes only."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
@@ -248,6 +248,26 @@ codes! {
             "sites:\n  Hall: {type: P1, machines: {1..10: {}, 11: {}}}",
             "sites:\n  Hall: {type: P1, machines: {1..11: {}}}"
         )]
+    NO_TRANSLATION Warning "OD0862" "a text without its translation":
+        "`languages:` lists the languages of the texts, and a text that is written by language lacks one of them, or is empty in it. Documents in this language then show the text in another one. Write it; `odgen check --translations` lists every text that lacks a language."
+        [Example::new(
+            "languages: [en, de]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: {en: Level of the tank.}}",
+            "languages: [en, de]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: {en: Level of the tank., de: Füllstand des Behälters.}}"
+        )]
+    ONE_LANGUAGE Note "OD0863" "texts in one language":
+        "A text that is not written by language is in the first language of `languages:`. Documents in another one show it as it is. `odgen check --translations` lists these texts, for translators."
+        [Example::new(
+            "languages: [en, de]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: Level of the tank.}",
+            "languages: [en, de]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: {en: Level of the tank., de: Füllstand des Behälters.}}"
+        )]
+    NAMED_IN_TEXT Warning "OD0864" "a text names what is not there":
+        "A text names an object that no device has, or a table, figure or section that `document:` does not have. It leads the reader nowhere: a wrong digit, or something that was renamed or removed? Numbers of other documents count where the sentence names them: `CiA 301, section 7.5`. Texts of errata and of the history are about other issues, and are not looked at. `since:` names an issue that `history:` lists."
+        [Example::new(
+            "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: The limit is object 2010h.}\n  0x2001: {name: limit, type: unsigned8, access: ro}",
+            "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: The limit is object 2001h.}\n  0x2001: {name: limit, type: unsigned8, access: ro}"
+        )]
+    NO_CHANGE Warning "OD0865" "an erratum that changes nothing":
+        "An erratum says what the manual prints and how it is read. Here both are equal, so that nobody learns what is wrong with the manual. Correct one of them, or remove the erratum."
     STACK_DIFFERS Warning "OD0860" "something that the stack wants set up":
         "CANopenNode has a configuration of its own, and takes some things otherwise than the dictionary says. The files are made and compile; the message tells what is to be done in the project that takes them, or what is different on the bus."
     COB_ID_OF_OTHER_NODE Warning "OD0861" "a COB-ID of the node-ID that a file is for":
@@ -329,6 +349,18 @@ codes! {
         [Example::xdd(
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" defaultValue=\"0\" actualValue=\"5\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" defaultValue=\"0\"/>\n</CANopenObjectList>"
+        )]
+    XDD_COUNT Warning "XDD210" "a number of sub-objects that is not theirs":
+        "`subNumber` is the number of sub-objects, sub-index 0 among them. The sub-objects that are there count. Is one of them missing?"
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"levels\" objectType=\"9\" subNumber=\"3\">\n    <CANopenSubObject subIndex=\"00\" name=\"number\" objectType=\"7\" dataType=\"0005\" accessType=\"const\" defaultValue=\"1\"/>\n    <CANopenSubObject subIndex=\"01\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n  </CANopenObject>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"levels\" objectType=\"9\" subNumber=\"2\">\n    <CANopenSubObject subIndex=\"00\" name=\"number\" objectType=\"7\" dataType=\"0005\" accessType=\"const\" defaultValue=\"1\"/>\n    <CANopenSubObject subIndex=\"01\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n  </CANopenObject>\n</CANopenObjectList>"
+        )]
+    XDD_LISTS Warning "XDD211" "a second list of objects":
+        "A device has one `CANopenObjectList`. The first one is read; what a further one holds is left out of everything that is made from the file."
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>\n<CANopenObjectList>\n  <CANopenObject index=\"2001\" name=\"limit\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n  <CANopenObject index=\"2001\" name=\"limit\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
         )]
     XDD_LEFT_OUT Note "XDD207" "something that has no place":
         "A dictionary has no place for it, or it can be understood in more than one way: what other programs keep in `property`, modules, templates, and units whose raw values count from an `offset`."

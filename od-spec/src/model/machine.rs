@@ -1,6 +1,7 @@
 //! State machines and command codings.
 
 use super::{Devices, EntryId, Text};
+use crate::source::Span;
 
 /// A state machine that a command entry drives and a status entry shows.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,6 +21,17 @@ pub struct StateMachine {
     pub transitions: Vec<Transition>,
     /// Commands, in the order of the specification.
     pub commands: Vec<Command>,
+    /// Where its name is written.
+    pub span: Span,
+    /// Where the status entry is named, and where the command entry is.
+    pub entry_places: (Span, Span),
+}
+
+impl StateMachine {
+    /// Where something of the machine stands; its name, for what a library says.
+    pub(crate) const fn place(&self, written: Span) -> Span {
+        if written.file.is_one_with(self.span.file) { written } else { self.span }
+    }
 }
 
 /// A state and how the status entry shows it.
@@ -32,6 +44,8 @@ pub struct State {
     pub pattern: BitPattern,
     /// Meaning.
     pub about: Text,
+    /// Where it is written.
+    pub span: Span,
 }
 
 /// A transition between states.
@@ -50,6 +64,8 @@ pub struct Transition {
     pub action: Text,
     /// How the device makes it without a command.
     pub by_device: ByDevice,
+    /// Where it is written.
+    pub span: Span,
 }
 
 /// How a device makes a transition that nobody commands.
@@ -96,6 +112,8 @@ pub struct Command {
     pub transitions: Vec<u8>,
     /// Meaning.
     pub about: Text,
+    /// Where it is written.
+    pub span: Span,
 }
 
 /// Fixed, free and changing bits of a word, most significant bit first.
@@ -130,6 +148,34 @@ impl BitPattern {
         })
     }
 
+    /// What has the bits of both; `None` where a bit differs.
+    pub(crate) fn joined(&self, other: &Self) -> Option<Self> {
+        use PatternBit::{Any, Falling, One, Rising, Zero};
+        let bits = self.0.iter().zip(&other.0).map(|pair| match pair {
+            (Any, bit) | (bit, Any) => Some(*bit),
+            (Zero | Falling, Zero | Falling) => Some(Zero),
+            (One | Rising, One | Rising) => Some(One),
+            (Zero | Falling, One | Rising) | (One | Rising, Zero | Falling) => None,
+        });
+        bits.collect::<Option<Vec<_>>>().map(Self)
+    }
+
+    /// The smallest number from `low` on that has the bits, where an entry has no more than 64 of them.
+    pub(crate) fn smallest_from(&self, low: u64) -> Option<u64> {
+        let (mask, value) = self.mask_and_value();
+        if low & mask == value {
+            return Some(low);
+        }
+        // The number is as `low` above one bit, which is 0 there and 1 here; below that bit it is as small as it can be.
+        (0..self.0.len().min(64)).find_map(|bit| {
+            let (one, upper) =
+                (1_u64 << bit, u64::MAX.checked_shl(u32::try_from(bit).ok()? + 1).unwrap_or(0));
+            let may_rise = low & one == 0 && (mask & one == 0 || value & one != 0);
+            let is_as_low = (low ^ value) & mask & upper == 0;
+            (may_rise && is_as_low).then_some(low & upper | one | value & (one - 1))
+        })
+    }
+
     /// Masks of the bits that have to rise and of those that have to fall.
     pub fn edges(&self) -> (u64, u64) {
         self.0.iter().fold((0, 0), |(rising, falling), bit| {
@@ -140,5 +186,25 @@ impl BitPattern {
             };
             (rising << 1 | rises, falling << 1 | falls)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against trying every number.
+    #[test]
+    fn the_smallest_number_of_a_pattern_is_found() {
+        let places = [PatternBit::Zero, PatternBit::One, PatternBit::Any];
+        for code in 0..3_usize.pow(5) {
+            let pattern = BitPattern((0..5).map(|at| places[code / 3_usize.pow(at) % 3]).collect());
+            let (mask, value) = pattern.mask_and_value();
+            for low in 0..32 {
+                let expected = (low..32).find(|number| number & mask == value);
+                let found = pattern.smallest_from(low).filter(|number| *number < 32);
+                assert_eq!(found, expected, "{pattern:?} from {low}");
+            }
+        }
     }
 }

@@ -186,6 +186,8 @@ pub struct ErrorCode {
     pub treated_by: Devices,
     /// More about it.
     pub about: Text,
+    /// Where its code is written.
+    pub span: Span,
 }
 
 impl ErrorCode {

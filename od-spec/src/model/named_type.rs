@@ -3,7 +3,7 @@
 use std::ops::Deref;
 
 use super::{DataType, Statement, Text};
-use crate::source::Spanned;
+use crate::source::{Span, Spanned};
 
 /// An enum or a bit field with a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -135,6 +135,8 @@ pub struct ModeMeaning {
     pub name: String,
     /// Meaning.
     pub about: Text,
+    /// Where the mode is named.
+    pub span: Span,
 }
 
 impl BitField {

@@ -120,6 +120,8 @@ pub struct Site {
     pub title: Option<String>,
     /// A remark.
     pub comment: Option<String>,
+    /// Where it is declared.
+    pub span: Span,
 }
 
 /// A machine, with a bus of its own.

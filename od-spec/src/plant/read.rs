@@ -101,6 +101,7 @@ fn types(decl: &PlantDecl) -> Vec<MachineType> {
 fn sites(decl: &PlantDecl) -> Vec<Site> {
     let text = |name: &Option<crate::ast::Name>| name.as_ref().map(|name| name.value.clone());
     let sites = decl.sites.iter().map(|site| Site {
+        span: site.name.span,
         name: site.name.value.clone(),
         title: text(&site.title),
         comment: text(&site.comment),

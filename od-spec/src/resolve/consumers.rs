@@ -1,6 +1,6 @@
 //! Heartbeat consumers by node and time: `{node: 5, time: 3000 ms}` for the value 0005_0BB8h of an entry of 1016h.
 
-use crate::ast::{DefaultDecl, Name};
+use crate::ast::{CONSUMER_KEYS, DefaultDecl, Name};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::model::{Index, Ratio};
 use crate::scalar;
@@ -8,8 +8,6 @@ use crate::source::{Span, Spanned};
 
 /// The object whose entries are consumers.
 const CONSUMERS: Index = Index(0x1016);
-const NODE: &str = "node";
-const TIME: &str = "time";
 
 type Keys = [(Name, Spanned<DefaultDecl>)];
 
@@ -20,7 +18,7 @@ pub(crate) fn are_meant(index: Index, keys: &Keys) -> bool {
 
 /// Whether a name is a key of a consumer.
 pub(super) fn is_key(name: &str) -> bool {
-    [NODE, TIME].contains(&name)
+    CONSUMER_KEYS.contains(&name)
 }
 
 /// The raw value of a consumer.
@@ -40,7 +38,8 @@ pub(crate) fn raw(keys: &Keys, place: Span, diagnostics: &mut Diagnostics) -> Op
         };
         Some(Spanned::new(text, value.span))
     };
-    let (node, time) = (value(NODE, "5"), value(TIME, "3000 ms"));
+    let [node, time] = CONSUMER_KEYS;
+    let (node, time) = (value(node, "5"), value(time, "3000 ms"));
     let node = node.and_then(|text| node_id(text, diagnostics));
     let time = time.and_then(|text| milliseconds(text, diagnostics));
     Some(node? << 16 | time?)

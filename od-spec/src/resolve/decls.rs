@@ -175,32 +175,16 @@ fn from_library<'a>(
 fn check_own_keys(decl: &ObjectDecl, merged: &ObjectDecl, diagnostics: &mut Diagnostics) {
     let shaped = ObjectDecl { entry: decl.entry.clone(), ..merged.clone() };
     keys_have_effect::check_object(&shaped, diagnostics);
+    let structured = merged.array.is_some() || merged.record.is_some();
+    if let Some(sub0) = decl.sub0.as_ref().filter(|_| !structured) {
+        keys_have_effect::refuse_sub0(sub0, diagnostics);
+    }
     if let (Some(from), Some(alias)) = (&decl.from, &decl.alias) {
         diagnostics.push(
             Diagnostic::new(codes::CONFLICTING_KEYS, alias.span, "an alias takes nothing from a library")
                 .with(from.span, "the library")
                 .help("keep one of `alias:` and `from:`"),
         );
-    }
-    let EntryDecl { type_name, unit, access, pdo, .. } = &decl.entry;
-    let keys = [
-        ("type", type_name.as_ref().map(|key| key.span)),
-        ("unit", unit.as_ref().map(|key| key.span)),
-        ("access", access.as_ref().map(|key| key.span)),
-        ("pdo", pdo.as_ref().map(|key| key.span)),
-    ];
-    let structured = merged.array.is_some() || merged.record.is_some();
-    for (key, span) in keys.into_iter().filter(|_| structured) {
-        if let Some(span) = span {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::CONFLICTING_KEYS,
-                    span,
-                    format!("`{key}` has no effect here: the library's entries have their own"),
-                )
-                .help(format!("write `{key}` under `array:` or at the members of `record:`")),
-            );
-        }
     }
     keys_have_effect::check_omitted(decl, merged, diagnostics);
 }
@@ -217,6 +201,12 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
     let array = match (&over.array, &below.array) {
         (Some(over), Some(below)) => {
             note(Part::Elements, differences(&over.entry, &below.entry));
+            let elements = within(&below.elements, over.count);
+            for (sub, element) in &elements {
+                // What the array says of all elements, and the library of this one.
+                let of_both = over.entry.without(&over.entry.without(element));
+                note(Part::Entry(sub.value), differences(&of_both, element));
+            }
             if over.count.is_some() && over.count != below.count {
                 note(Part::Object, vec![Fact::Count]);
             }
@@ -224,12 +214,7 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
                 span: over.span,
                 count: over.count.or(below.count),
                 entry: over.entry.over(&below.entry),
-                elements: merge_members(
-                    &over.elements,
-                    &within(&below.elements, over.count),
-                    scope,
-                    &mut note,
-                ),
+                elements: merge_members(&over.elements, &elements, &over.entry, scope, &mut note),
             }))
         }
         // An object that says it is something else than the library's object is that.
@@ -240,7 +225,13 @@ fn lay_over(over: &ObjectDecl, below: &ObjectDecl, scope: &Scope) -> (ObjectDecl
     let record = match (&over.record, &below.record) {
         (Some(over), Some(below)) => Some(RecordDecl {
             span: over.span,
-            members: merge_members(&over.members, &below.members, scope, &mut note),
+            members: merge_members(
+                &over.members,
+                &below.members,
+                &EntryDecl::empty(over.span),
+                scope,
+                &mut note,
+            ),
         }),
         (over_record, below_record) => {
             over_record.clone().or_else(|| below_record.clone().filter(|_| over.array.is_none()))
@@ -322,14 +313,16 @@ fn within(elements: &Members, count: Option<Spanned<i128>>) -> Members {
 
 type Members = Vec<(Spanned<SubIndex>, EntryDecl)>;
 
+/// The entries here over those of the library, of which `stated` goes before what the library says of each.
 fn merge_members(
     over: &Members,
     below: &Members,
+    stated: &EntryDecl,
     scope: &Scope,
     note: &mut impl FnMut(Part, Vec<Fact>),
 ) -> Members {
     let mut merged: BTreeMap<SubIndex, (Spanned<SubIndex>, EntryDecl)> =
-        below.iter().map(|(sub, entry)| (sub.value, (*sub, entry.clone()))).collect();
+        below.iter().map(|(sub, entry)| (sub.value, (*sub, likes::taken(entry, stated)))).collect();
     let mut added: Vec<SubIndex> = Vec::new();
     for (sub, entry) in over {
         let laid = match merged.get(&sub.value) {

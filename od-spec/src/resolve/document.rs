@@ -1,6 +1,7 @@
 //! The printed manual: issues, sections, tables, errata.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 use super::figures::Figures;
 use super::numbers::to_u16;
@@ -9,14 +10,15 @@ use super::refs::{Broken, NamesOf};
 use super::table_content::Contents;
 use super::types::words;
 use super::varied::Varied;
-use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, PartDecl, SectionDecl, Spec};
+use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Named, PartDecl, SectionDecl, Spec};
 use crate::decode::lexical;
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::limits;
 use crate::model::{
-    BitTable, Content, Devices, Dictionary, Document, Erratum, ErratumPlace, Figure, Index, Issue,
-    LadderTable, PdoTable, Prose, Section, System, Table, TableContent,
+    BitTable, Content, Devices, Dictionary, Document, Erratum, ErratumKind, ErratumPlace, Figure, Index,
+    Issue, LadderTable, PdoTable, Prose, Section, System, Table, TableContent,
 };
+use crate::running_text::Numbered;
 use crate::source::{Span, Spanned};
 
 pub(super) fn resolve(root: &Spec, figures: &Figures<'_, '_>, diagnostics: &mut Diagnostics) -> Document {
@@ -169,6 +171,16 @@ pub(super) fn errata(
                     .help(format!("correct the number, or add the {word} to `document:`")),
             );
         }
+        if let (Some(prints), Some(reads)) = (&decl.prints, &decl.reads)
+            && prints.value == reads.value
+            && decl.kind.as_ref().is_some_and(|kind| is_always_stated(kind.value))
+        {
+            diagnostics.push(
+                Diagnostic::new(codes::NO_CHANGE, reads.span, "this is what the manual prints")
+                    .with(prints.span, "it stands here")
+                    .help("say how the manual is read, or remove the erratum"),
+            );
+        }
         let Some(kind) = decl.kind else { continue };
         let devices = if decl.devices.is_some() { on } else { owners(&at, system) };
         errata.push(Erratum {
@@ -183,6 +195,31 @@ pub(super) fn errata(
         });
     }
     errata
+}
+
+/// Whether every manual has to print the fact: an erratum about another one may say that nothing is printed, and nothing assumed.
+const fn is_always_stated(kind: ErratumKind) -> bool {
+    match kind {
+        ErratumKind::Index
+        | ErratumKind::Name
+        | ErratumKind::Type
+        | ErratumKind::Sign
+        | ErratumKind::Access
+        | ErratumKind::ObjectType
+        | ErratumKind::SubIndex
+        | ErratumKind::Count => true,
+        ErratumKind::Default
+        | ErratumKind::Limit
+        | ErratumKind::Unit
+        | ErratumKind::Pdo
+        | ErratumKind::Stored
+        | ErratumKind::Bits
+        | ErratumKind::Values
+        | ErratumKind::Table
+        | ErratumKind::Text
+        | ErratumKind::Gap
+        | ErratumKind::Profile => false,
+    }
 }
 
 /// The devices that have one of the places; all, if none is named.
@@ -225,11 +262,19 @@ fn place(
 pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: &mut Diagnostics) {
     let mut tables: BTreeMap<i128, Span> = BTreeMap::new();
     let mut figures: BTreeMap<i128, Span> = BTreeMap::new();
+    let mut sections: BTreeMap<&str, Span> = BTreeMap::new();
     let contents = Contents::of(root, system, broken);
+    for number in root.sections.iter().filter_map(|section| section.number.as_ref()) {
+        is_new("section", number.value.as_str(), number, &mut sections, diagnostics);
+    }
+    named_in_texts(root, system, diagnostics);
     for decl in root.sections.iter().flat_map(|section| &section.content) {
-        is_new("table", decl.number.as_ref(), &mut tables, diagnostics);
-        let figure = decl.figure.as_ref().and_then(|figure| figure.value.number.as_ref());
-        is_new("figure", figure, &mut figures, diagnostics);
+        if let Some(number) = &decl.number {
+            is_new("table", number.value, number, &mut tables, diagnostics);
+        }
+        if let Some(number) = decl.figure.as_ref().and_then(|figure| figure.value.number.as_ref()) {
+            is_new("figure", number.value, number, &mut figures, diagnostics);
+        }
         match decl.contents.as_slice() {
             [content] => {
                 contents.check(&content.value, diagnostics);
@@ -274,22 +319,60 @@ fn of_table(decl: &PartDecl) -> Option<(Span, &'static str)> {
 }
 
 /// Reports a number that stood before.
-fn is_new(
+fn is_new<N: Ord + Copy + fmt::Display, T>(
     what: &str,
-    number: Option<&Spanned<i128>>,
-    before: &mut BTreeMap<i128, Span>,
+    number: N,
+    place: &Spanned<T>,
+    before: &mut BTreeMap<N, Span>,
     diagnostics: &mut Diagnostics,
 ) {
-    if let Some(number) = number
-        && let Some(before) = before.insert(number.value, number.span)
-    {
-        let message = format!("{what} {} stands twice", number.value);
+    if let Some(before) = before.insert(number, place.span) {
+        let message = format!("{what} {} stands twice", shorten(&number.to_string()));
         diagnostics.push(
-            Diagnostic::new(codes::DUPLICATE_VALUE, number.span, message)
+            Diagnostic::new(codes::DUPLICATE_VALUE, place.span, message)
                 .label("again here")
                 .with(before, "first here")
                 .help(format!("each numbered {what} of the manual stands once")),
         );
+    }
+}
+
+/// Reports what texts name and the manual or the devices do not have.
+fn named_in_texts(root: &Spec, system: &System, diagnostics: &mut Diagnostics) {
+    let mut numbered: BTreeSet<(Numbered, String)> = BTreeSet::new();
+    for section in &system.document.sections {
+        numbered.insert((Numbered::Section, section.number.trim_end_matches('.').to_owned()));
+        for table in &section.tables {
+            numbered.extend(table.number.map(|number| (Numbered::Table, number.to_string())));
+            let figure = table.figure.as_ref().map(|figure| figure.number.to_string());
+            numbered.extend(figure.map(|number| (Numbered::Figure, number)));
+        }
+    }
+    // What is not described at all is described elsewhere.
+    let is_described =
+        |kind: Numbered| numbered.iter().any(|(one, number)| *one == kind && !number.is_empty());
+    let described =
+        [Numbered::Table, Numbered::Figure, Numbered::Section].map(|kind| (kind, is_described(kind)));
+    for mention in &root.mentions {
+        let (what, help) = match &mention.named {
+            Named::Numbered(kind, number) => {
+                let key = (*kind, number.clone());
+                if !described.contains(&(*kind, true)) || numbered.contains(&key) {
+                    continue;
+                }
+                let help = "correct the number, or name the document that has it before it";
+                (format!("{} {}", kind.word(), shorten(number)), help)
+            }
+            Named::Object(index) => {
+                let mut devices = system.devices.iter().peekable();
+                if devices.peek().is_none() || devices.any(|device| device.objects.contains_key(index)) {
+                    continue;
+                }
+                (format!("object {index}"), "correct the index; no device of the specification has it")
+            }
+        };
+        let message = format!("there is no {what}");
+        diagnostics.push(Diagnostic::new(codes::NAMED_IN_TEXT, mention.place, message).help(help));
     }
 }
 

@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 
 use super::scope::unknown;
-use crate::ast::{ObjectDecl, Spec};
+use super::surroundings::Surroundings;
+use crate::ast::{BitDecl, EntryDecl, ObjectDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::PatternBit;
-use crate::source::Span;
+use crate::model::{BitUsage, Entry, Fact, PatternBit};
+use crate::source::{FileId, Span};
 
 /// Checks that a feature which has the channels of another one finds some there.
 fn check_channels(library: &Spec, diagnostics: &mut Diagnostics) {
@@ -65,6 +66,9 @@ pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
             );
         }
     }
+    for bit in root.types.iter().flat_map(|decl| decl.bits.iter().flatten()) {
+        check_bit(bit, diagnostics);
+    }
     if let (None, Some(feature)) = (&root.profile, root.features.first()) {
         let help = "add `profile:` to make the file a library, or select features under `devices:`";
         refuse("features", feature.name.span, "only a library offers features", help, diagnostics);
@@ -88,6 +92,35 @@ pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
     }
 }
 
+/// Checks that bits without meaning have none, and that a level is that of one bit.
+fn check_bit(bit: &BitDecl, diagnostics: &mut Diagnostics) {
+    let BitDecl { bits, usage, name, errors, active, edge, values, modes, .. } = bit;
+    let keys = [
+        ("name", name.as_ref().map(|name| name.span)),
+        ("error", errors.first().map(|code| code.span)),
+        ("active", active.map(|active| active.span)),
+        ("edge", edge.map(|_| bits.span)),
+        ("values", values.first().map(|value| value.value.span)),
+        ("modes", modes.first().map(|mode| mode.mode.span)),
+    ];
+    let why = match usage {
+        BitUsage::Reserved => "a reserved bit means nothing",
+        BitUsage::Unused => "an unused bit means nothing",
+        BitUsage::Used => {
+            if let Some(active) = active.filter(|_| bits.value.first != bits.value.last) {
+                let help = "remove it, or list the bits one by one";
+                refuse("active", active.span, "several bits have no one level", help, diagnostics);
+            }
+            return;
+        }
+    };
+    // The first one is enough.
+    if let Some((key, span)) = keys.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        let help = "remove it, or the mark that the bit has no meaning";
+        refuse(key, span, why, help, diagnostics);
+    }
+}
+
 pub(super) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
     let ObjectDecl { alias, from, like, array, record, sub0, omit, outside, rounding, entry, .. } = object;
     if alias.is_none() {
@@ -99,13 +132,7 @@ pub(super) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
     }
     let structured = array.is_some() || record.is_some() || from.is_some();
     if let Some(sub0) = sub0.as_ref().filter(|_| !structured) {
-        refuse(
-            "sub0",
-            sub0.span,
-            "a VAR has one entry only",
-            "remove it, or add `array:` or `record:`",
-            diagnostics,
-        );
+        refuse_sub0(sub0, diagnostics);
     }
     if let Some(sub) = omit.first().filter(|_| from.is_none() && like.is_none() && array.is_none()) {
         let help = "leave the sub-index out of `record:` instead";
@@ -115,6 +142,67 @@ pub(super) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
         for key in entry.about_one_value() {
             let help = format!("move `{}` to the entries that it is meant for", key.value);
             refuse(key.value, key.span, "the object has several values", &help, diagnostics);
+        }
+    }
+}
+
+/// A VAR with something about a number of entries.
+pub(super) fn refuse_sub0(sub0: &EntryDecl, diagnostics: &mut Diagnostics) {
+    let help = "remove it, or add `array:` or `record:`";
+    refuse("sub0", sub0.span, "a VAR has one entry only", help, diagnostics);
+}
+
+/// Checks that what the maker says of all entries of an object is taken by one of them.
+pub(super) fn check_taken(
+    decl: &ObjectDecl,
+    entries: &[Entry],
+    around: Surroundings<'_>,
+    diagnostics: &mut Diagnostics,
+) {
+    let of_object = decl.entry.inherited();
+    let of_array = decl.array.as_ref().map(|array| &array.entry);
+    for common in [Some(&of_object), of_array].into_iter().flatten().filter(|common| !common.unsure) {
+        for (key, fact) in common.stated() {
+            // What a library says is told to nobody, nor is what the object has that this one is like.
+            let is_makers =
+                key.span.file.is_one_with(around.file) && decl.like.is_none_or(|like| like.span != key.span);
+            let is_taken =
+                |entry: &Entry| entry.facts.get(fact).is_some_and(|stated| key.span.contains(stated.span));
+            // The name is that of elements which others may have that are like this one; a default may be that of other devices.
+            let may_be_left = fact == Fact::Name || fact == Fact::Default && !common.is_for(around.device);
+            if is_makers
+                && !may_be_left
+                && !entries.iter().any(is_taken)
+                && diagnostics.is_new(codes::CONFLICTING_KEYS, key.span)
+            {
+                let help = format!("write `{}` at the entries that it is meant for, or remove it", key.value);
+                refuse(key.value, key.span, "no entry takes it from here", &help, diagnostics);
+            }
+        }
+    }
+}
+
+/// Checks that a default which the maker wants in the EDS is there.
+pub(super) fn check_written(
+    decl: &ObjectDecl,
+    entries: &[Entry],
+    maker: FileId,
+    diagnostics: &mut Diagnostics,
+) {
+    let array = decl.array.iter();
+    let single = array.clone().flat_map(|array| &array.elements);
+    let single = single.chain(decl.record.iter().flat_map(|record| &record.members)).map(|(_, entry)| entry);
+    let all = [&decl.entry].into_iter().chain(decl.sub0.as_deref()).chain(array.map(|array| &array.entry));
+    for eds in all.chain(single).filter_map(|entry| entry.eds.as_ref()) {
+        let mut meant = entries.iter().filter(|entry| entry.place(Fact::Eds) == eds.span).peekable();
+        let is_makers = eds.value.default == Some(true) && eds.span.file.is_one_with(maker);
+        if is_makers
+            && meant.peek().is_some()
+            && meant.all(|entry| entry.default.is_none())
+            && diagnostics.is_new(codes::CONFLICTING_KEYS, eds.span)
+        {
+            let help = "remove it, or add `default:`";
+            refuse("default: written", eds.span, "there is no default", help, diagnostics);
         }
     }
 }

@@ -353,7 +353,7 @@ fn all_taken(members: Members, stated: &[&EntryDecl]) -> Members {
 }
 
 /// What is taken of an entry: what is not stated otherwise, and no condition of writing what can only be read.
-fn taken(below: &EntryDecl, stated: &EntryDecl) -> EntryDecl {
+pub(super) fn taken(below: &EntryDecl, stated: &EntryDecl) -> EntryDecl {
     let mut taken = below.without(stated);
     if stated.access.is_some_and(|access| !access.value.access.is_writable()) {
         taken.writable_when = None;

@@ -160,6 +160,15 @@ fn machine(
         if varied.is_refused(id.index, place, keys, help, diagnostics) {
             return None;
         }
+        if width(id, device).is_none() {
+            let data_type = device.entry(id)?.data_type;
+            let message = format!("{id} is {data_type}, whose bits are neither states nor commands");
+            diagnostics.push(
+                Diagnostic::new(codes::PATTERN_WIDTH, place, message)
+                    .help("name an entry of an integer type"),
+            );
+            return None;
+        }
     }
     if decl.states.len() > STATES {
         let message = format!("{} states; a state machine has at most {STATES}", decl.states.len());
@@ -178,12 +187,13 @@ fn machine(
             let pattern = state.pattern.as_ref()?;
             check_width(pattern, status, device, diagnostics)?;
             let (name, pattern) = (state.name.value.clone(), pattern.value.clone());
-            Some(State { name, pattern, about: words(&state.about) })
+            Some(State { name, pattern, about: words(&state.about), span: state.name.span })
         })
         .collect();
     check_states_differ(decl, &states, diagnostics);
     let transitions = transitions(decl, diagnostics);
     let commands = commands(decl, command, device, diagnostics);
+    let place = |entry: &Option<Name>| entry.as_ref().map_or(decl.name.span, |name| name.span);
     Some(StateMachine {
         name: decl.name.value.clone(),
         devices: on,
@@ -192,6 +202,8 @@ fn machine(
         states,
         transitions,
         commands,
+        span: decl.name.span,
+        entry_places: (place(&decl.status), place(&decl.command)),
     })
 }
 
@@ -226,6 +238,7 @@ fn transitions(decl: &MachineDecl, diagnostics: &mut Diagnostics) -> Vec<Transit
             action: words(&one.action),
             by_device: by_device(one, &from, to, commanded.contains(&one.number.value), diagnostics),
             from,
+            span: one.number.span,
         });
     }
     transitions.sort_by_key(|transition| transition.number);
@@ -313,6 +326,7 @@ fn commands(
             send: one.send.as_ref().map(|send| to_u32(send.value)),
             transitions: one.transitions.iter().map(|number| to_u8(number.value)).collect(),
             about: words(&one.about),
+            span: one.name.span,
         });
     }
     commands
@@ -347,7 +361,7 @@ fn check_width(
     device: &Dictionary,
     diagnostics: &mut Diagnostics,
 ) -> Option<()> {
-    let width = device.entry(entry)?.data_type.bits()?;
+    let width = width(entry, device)?;
     let given = pattern.value.0.len();
     if usize::from(width) == given {
         return Some(());
@@ -361,6 +375,12 @@ fn check_width(
         .help(format!("write {width} places, most significant bit first")),
     );
     None
+}
+
+/// The bits of an entry that stand for states or commands; `None` for one of another type than an integer.
+fn width(entry: EntryId, device: &Dictionary) -> Option<u16> {
+    let data_type = device.entry(entry)?.data_type;
+    data_type.bits().filter(|_| data_type.is_integer())
 }
 
 /// No value of the status entry may show two states.

@@ -20,6 +20,7 @@ mod errors;
 mod features;
 mod figures;
 mod flows;
+mod issues;
 mod keys_have_effect;
 mod libraries;
 mod likes;
@@ -128,6 +129,7 @@ pub(crate) fn resolve<'a>(
         error.option_code = option_codes.get(&error.code).copied();
     }
     document::check(root, &system, &broken, diagnostics);
+    issues::check(root, diagnostics);
     Resolved { system, library }
 }
 

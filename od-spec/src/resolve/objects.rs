@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::declared::Declared;
 use super::defaults;
 use super::entries;
+use super::keys_have_effect;
 use super::surroundings::Surroundings;
 use super::types::words;
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
@@ -61,6 +62,7 @@ pub(super) fn resolve(
         }
     };
     diagnostics.now_about(Some(decl.index.value.into()));
+    keys_have_effect::check_written(decl, &entries, around.file, diagnostics);
     Some(Object {
         index: decl.index.value,
         name: name.value.clone(),
@@ -117,6 +119,7 @@ fn elements(
             return None;
         }
     };
+    let before = diagnostics.errors_found();
     let omitted = |sub: u8| decl.omit.iter().any(|omit| omit.value == i128::from(sub));
     let mut common = EntryDecl { name: None, ..array.entry.over(&decl.entry.inherited()) };
     let subs: Vec<u8> = (1..=count).filter(|sub| !omitted(*sub)).collect();
@@ -156,6 +159,10 @@ fn elements(
     if list.is_empty() && broken {
         return None;
     }
+    // What a library says for all is also for those who have more, and what is wrong was said.
+    if around.device.is_some() && !list.is_empty() && diagnostics.errors_found() == before {
+        keys_have_effect::check_taken(decl, &list, around, diagnostics);
+    }
     finish(decl, list, around, diagnostics)
 }
 
@@ -165,7 +172,7 @@ fn members(
     around: Surroundings<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<Vec<Entry>> {
-    let common = decl.entry.inherited();
+    let (common, before) = (decl.entry.inherited(), diagnostics.errors_found());
     // One more for sub-index 0.
     let (mut list, mut broken) = (Vec::with_capacity(record.members.len() + 1), false);
     for (sub, member) in &record.members {
@@ -195,6 +202,10 @@ fn members(
     }
     if list.is_empty() && broken {
         return None;
+    }
+    // What a library says for all is also for those who have more, and what is wrong was said.
+    if around.device.is_some() && !list.is_empty() && diagnostics.errors_found() == before {
+        keys_have_effect::check_taken(decl, &list, around, diagnostics);
     }
     finish(decl, list, around, diagnostics)
 }

@@ -18,7 +18,7 @@ pub(super) fn write<'x>(
     diagnostics: &mut Diagnostics,
 ) {
     file_info(document, tree);
-    device_info(document, tree, parameters);
+    device_info(document, tree, parameters, diagnostics);
     dummies(document, tree);
     channels(document, tree);
     commissioning(document, tree, diagnostics);
@@ -65,12 +65,26 @@ fn minutes(time: Spanned<&str>) -> Spanned<&str> {
     time.map(|time| time.get(..5).unwrap_or(time))
 }
 
-fn device_info<'x>(document: &mut Document<'static>, tree: Tree<'x>, parameters: &Parameters<'x>) {
+fn device_info<'x>(
+    document: &mut Document<'static>,
+    tree: Tree<'x>,
+    parameters: &Parameters<'x>,
+    diagnostics: &mut Diagnostics,
+) {
     let place = tree.place(tree.xml.root_element());
     document.push_header("DeviceInfo", place, &[]);
     let mut keys = Keys(document);
     if let Some(identity) = tree.first("DeviceIdentity") {
         let text = |name: &str| tree.text(child(identity, name)?);
+        for name in ["vendorID", "productID"] {
+            if let Some(id) =
+                text(name).filter(|id| !id.value.is_empty() && lenient_integer(id.value).is_none())
+            {
+                let message = format!("found `{}` as `{name}`, expected a number", shorten(id.value));
+                let help = "write it in hexadecimal, such as `0x0000001F`";
+                diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, id.span, message).help(help));
+            }
+        }
         keys.add("VendorName", text("vendorName"));
         keys.add("VendorNumber", text("vendorID"));
         keys.add("ProductName", text("productName"));
@@ -82,6 +96,9 @@ fn device_info<'x>(document: &mut Document<'static>, tree: Tree<'x>, parameters:
         tree.xml.descendants().filter(|node| node.is_element() && is_named(*node, "supportedBaudRate"))
     {
         let Some(value) = tree.attribute(rate, "value") else { continue };
+        if words::bit_rate(value.value).is_none() {
+            diagnostics.push(no_bit_rate("value", value));
+        }
         if let Some(kbit) = kbit(value.value) {
             keys.add(&format!("BaudRate_{kbit}"), Some(value.map(|_| "1")));
         }
@@ -121,6 +138,14 @@ fn flag(text: Spanned<&str>) -> Spanned<&'static str> {
 fn kbit(text: &str) -> Option<u16> {
     let other = || text.split_whitespace().next()?.parse().ok().filter(|rate| *rate != 0);
     words::bit_rate(text).or_else(other)
+}
+
+/// The finding about a bit rate that CANopen does not have.
+fn no_bit_rate(name: &str, rate: Spanned<&str>) -> Diagnostic {
+    let message =
+        format!("found `{name}=\"{}\"`, expected a bit rate such as `250 Kbps`", shorten(rate.value));
+    let help = "write 10, 20, 50, 125, 250, 500, 800 or 1000, with ` Kbps`";
+    Diagnostic::new(codes::XDD_ATTRIBUTE, rate.span, message).help(help)
 }
 
 fn dummies(document: &mut Document<'static>, tree: Tree<'_>) {
@@ -177,10 +202,7 @@ fn commissioning(document: &mut Document<'static>, tree: Tree<'_>, diagnostics: 
     let rate = text("actualBaudRate");
     keys.add("Baudrate", rate.and_then(|rate| Some(Spanned::new(kbit(rate.value)?.to_string(), rate.span))));
     if let Some(rate) = rate.filter(|rate| words::bit_rate(rate.value).is_none()) {
-        let found = format!("found `actualBaudRate=\"{}\"`", shorten(rate.value));
-        let message = format!("{found}, expected a bit rate such as `250 Kbps`");
-        let help = "write 10, 20, 50, 125, 250, 500, 800 or 1000, with ` Kbps`";
-        diagnostics.push(Diagnostic::new(codes::XDD_ATTRIBUTE, rate.span, message).help(help));
+        diagnostics.push(no_bit_rate("actualBaudRate", rate));
     }
     keys.add("NetNumber", text("networkNumber"));
     keys.add("NetworkName", text("networkName"));

@@ -32,6 +32,19 @@ pub(super) fn say(tree: Tree<'_>, diagnostics: &mut Diagnostics) {
     }
 }
 
+/// Says that only the first list of objects is read.
+pub(super) fn say_lists(tree: Tree<'_>, first: Node<'_, '_>, diagnostics: &mut Diagnostics) {
+    let lists =
+        tree.xml.descendants().filter(|node| node.is_element() && is_named(*node, "CANopenObjectList"));
+    for list in lists.filter(|list| *list != first) {
+        diagnostics.push(
+            Diagnostic::new(codes::XDD_LISTS, tree.place(list), "a further `CANopenObjectList` is left out")
+                .with(tree.place(first), "the first one is read")
+                .help("put all objects into one list"),
+        );
+    }
+}
+
 /// Says that an XDD has values of one node, which belong into an XDC.
 pub(crate) fn say_values(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();

@@ -104,6 +104,7 @@ pub(crate) fn translate(
         room: Room::new(0),
     };
     objects::write(list, disabled, context);
+    left_out::say_lists(xml, list, diagnostics);
     left_out::say(xml, diagnostics);
     Some(Translated { document, texts })
 }

@@ -103,6 +103,7 @@ impl<'a, 'x> Context<'a, 'x> {
     fn object(&mut self, node: Node<'x, 'x>, index: Index, place: Span) {
         let id = EntryId { index, sub: SubIndex(0) };
         let subs = self.subs(node, index);
+        self.count(node, index, subs.len());
         let parameter = self.parameter(node);
         let kind = self.kind(node, &id.to_string(), !subs.is_empty());
         let lines = self.lines(id, false, parameter);
@@ -153,6 +154,19 @@ impl<'a, 'x> Context<'a, 'x> {
             }
         }
         subs
+    }
+
+    /// Reports a number of sub-objects that is not the number of those that are there.
+    fn count(&mut self, node: Node<'x, 'x>, index: Index, found: usize) {
+        let Some(stated) = self.tree.attribute(node, "subNumber") else { return };
+        if stated.value.trim().parse() != Ok(found) {
+            let message = format!(
+                "found `subNumber=\"{}\"`, but the number of sub-objects of {index} is {found}",
+                shorten(stated.value)
+            );
+            let help = "correct the number, or add the sub-objects that are missing";
+            self.diagnostics.push(Diagnostic::new(codes::XDD_COUNT, stated.span, message).help(help));
+        }
     }
 
     /// The parameter that an object or sub-object refers to.

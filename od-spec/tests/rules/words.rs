@@ -318,6 +318,10 @@ fn faults_of_times() -> Vec<(&'static str, String)> {
         ("OD0824", pdo_with_times(TPDO.index, "253")),
         ("OD0824", pdo_with_times(RPDO.index, "255")),
         ("OD0824", pdo_with_times(TPDO.index, "255").replacen("DefaultValue=100", "DefaultValue=2000", 1)),
+        (
+            "OD0878",
+            info("BaudRate_125=0\nBaudRate_20=1") + &var(0x1017, "heartbeat time", 6, "rw", "DefaultValue=1"),
+        ),
         ("OD0836", pdo_with_sync_start(TPDO.index, "1", "")),
         ("OD0836", pdo_with_sync_start(TPDO.index, "1", &counter("2"))),
         ("OD0836", pdo_with_sync_start(TPDO.index, "254", "")),
@@ -477,7 +481,7 @@ fn faults_of_nodes() -> Vec<(&'static str, String)> {
 }
 
 /// Rules that nothing in an EDS or DCF can break, and why.
-const OUT_OF_REACH: [(&str, &str); 12] = [
+const OUT_OF_REACH: [(&str, &str); 21] = [
     ("OD0420", "it has no views of other entries"),
     ("OD0601", "an EDS has keys for the bit rates of CiA 301 alone"),
     ("OD0606", "it has no conditions between entries"),
@@ -485,6 +489,15 @@ const OUT_OF_REACH: [(&str, &str); 12] = [
     ("OD0808", "it has no list of error codes"),
     ("OD0837", "where it states no default, it says nothing about the start"),
     ("OD0843", "it has no conditions between entries"),
+    ("OD0870", "it has no state machines"),
+    ("OD0871", "it has no state machines"),
+    ("OD0872", "it has no state machines"),
+    ("OD0873", "it has no state machines"),
+    ("OD0874", "it has no state machines"),
+    ("OD0875", "it has no special values"),
+    ("OD0876", "it has no list of error codes"),
+    ("OD0877", "it has no list of error codes"),
+    ("OD0879", "its PDOs are described in full"),
     ("OD0881", "it has no views of other entries"),
     ("OD0882", "its comments give a unit to numbers alone"),
     ("OD0883", "its comments tell no base of a symbol"),

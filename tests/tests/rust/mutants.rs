@@ -19,7 +19,7 @@ const MODULES: usize = 24;
 
 /// What has nothing to give away, and what has names that mean something in Rust.
 const RARE: [&str; 4] = [
-    "pdos:\n  lamp: {receive: {1: {map: []}}, transmit: {1: {map: []}}}\n",
+    "pdos:\n  lamp: {receive: {1: {valid: no, map: []}}, transmit: {1: {valid: no, map: []}}}\n",
     "objects:\n  0x2000: {name: self, type: unsigned8, access: rw}\n  0x2001: {name: super, record: {1: {name: crate, type: boolean, access: ro}, 2: {name: gen, type: real64, access: rw}}}\n",
     "types:\n  type: {base: unsigned8, values: {0: try, 1: fn, 2: Self}}\nobjects:\n  0x2000: {name: match, type: type, access: rw}\n",
     "objects:\n  0x2000: {name: \"*/ }} [x] //! \\\\\", type: visible-string, capacity: 3, access: rw, about: \"*/ ``` [x](y) \\\\\"}\n",

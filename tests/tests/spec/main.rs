@@ -7,6 +7,7 @@ mod features;
 mod fullmo;
 mod layout;
 mod libraries;
+mod nothing_is_lost;
 mod parameter_schema;
 mod pitch;
 mod schema;

@@ -217,7 +217,7 @@ fn the_other_pieces_of_the_reference_compile() {
         let pdos = if has_devices || piece.contains("pdos:") {
             ""
         } else {
-            "pdos: {pump: {receive: {1: {map: []}}, transmit: {1: {map: []}}}}\n"
+            "pdos: {pump: {receive: {1: {valid: no, map: []}}, transmit: {1: {valid: no, map: []}}}}\n"
         };
         let found = diagnostics(&format!("{head}{devices}{pdos}{piece}"));
         let found: Vec<String> = found.iter().map(|one| format!("{} {}", one.code, one.message)).collect();

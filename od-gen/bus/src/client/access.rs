@@ -1,15 +1,17 @@
 //! SDO and NMT, one access after the other.
 
-use std::collections::BTreeSet;
+mod load;
+
 use std::fmt;
 use std::time::Duration;
 
 use firmware_glue::frame::{CanId, Frame};
-use firmware_glue::sdo::{Channel, Failure, SdoClient, Sink, Step};
+use firmware_glue::sdo::{Channel, Failure, SdoClient, Sink, Source, Step};
 use firmware_glue::{AbortCode, NodeId, clock};
 use od_spec::model::{DataType, EntryId};
 
 use super::{Bus, BusError};
+use crate::restarts::{ERROR_CONTROL, Restart, Restarts};
 
 /// No entry of a dictionary is longer; who sends more is not believed.
 const LONGEST: usize = 16 << 20;
@@ -19,8 +21,6 @@ const NAP: Duration = Duration::from_millis(20);
 const QUIET: clock::Duration = clock::Duration::from_millis(20);
 /// A lost frame is no reason to give up; more of them are.
 const RETRIES: u8 = 1;
-/// The identifiers of boot-up messages and heartbeats begin here.
-const BOOT_UP: u16 = 0x700;
 /// So many frames at most are taken from what has come already.
 const LEFT: usize = 1024;
 
@@ -34,8 +34,7 @@ pub struct Client<B> {
     retries: u8,
     /// Writes that were begun.
     writes: usize,
-    /// Nodes that were heard to start.
-    started: BTreeSet<u8>,
+    restarts: Restarts,
 }
 
 /// Why an access failed.
@@ -158,7 +157,7 @@ impl<S: Sink> Transfer for firmware_glue::sdo::SdoRead<S> {
     }
 }
 
-impl<S: firmware_glue::sdo::Source> Transfer for firmware_glue::sdo::SdoWrite<S> {
+impl<S: Source> Transfer for firmware_glue::sdo::SdoWrite<S> {
     fn handle(&mut self, frame: &Frame, now: clock::Instant) -> Step {
         self.handle(frame, now)
     }
@@ -175,14 +174,7 @@ impl<S: firmware_glue::sdo::Source> Transfer for firmware_glue::sdo::SdoWrite<S>
 impl<B: Bus> Client<B> {
     /// A client on a bus, which waits so long for an answer, and repeats a read once.
     pub fn new(bus: B, timeout: Duration) -> Self {
-        let micros = u64::try_from(timeout.as_micros()).unwrap_or(u64::MAX);
-        Self {
-            bus,
-            timeout: clock::Duration::from_micros(micros),
-            retries: RETRIES,
-            writes: 0,
-            started: BTreeSet::new(),
-        }
+        Self { bus, timeout: micros(timeout), retries: RETRIES, writes: 0, restarts: Restarts::default() }
     }
 
     /// The same, which repeats a read so often when a frame was lost or broken.
@@ -256,8 +248,13 @@ impl<B: Bus> Client<B> {
     /// # Errors
     /// [`AccessError`]: refused by the node it has its old value; otherwise nobody knows which.
     pub fn write(&mut self, node: u8, id: EntryId, bytes: &[u8]) -> Result<(), AccessError> {
-        let (client, now) = (self.sdo(node)?, self.now());
-        let begun = client.start_write(of_bus(id), bytes, now);
+        let client = self.sdo(node)?;
+        self.give(client, id, bytes)
+    }
+
+    /// Writes an entry as a client does it, once.
+    fn give(&mut self, client: SdoClient, id: EntryId, source: impl Source) -> Result<(), AccessError> {
+        let begun = client.start_write(of_bus(id), source, self.now());
         let (mut writing, request) = begun.map_err(AccessError::Wrong)?;
         self.writes += 1;
         self.bus.send(&request)?;
@@ -284,8 +281,9 @@ impl<B: Bus> Client<B> {
         channel: Channel,
         transfer: &mut impl Transfer,
     ) -> Result<Option<Frame>, AccessError> {
+        let mut nap = NAP;
         loop {
-            let heard = self.hear(NAP)?;
+            let heard = self.hear(nap)?;
             let now = self.now();
             let answer = heard.filter(|frame| frame.id() == channel.answer);
             if let Some(bytes) = answer.and_then(|frame| frame.bytes().map(<[u8]>::len))
@@ -304,6 +302,8 @@ impl<B: Bus> Client<B> {
             }
             // Other nodes may talk all the time.
             let step = transfer.poll(self.now());
+            // The segments of a block follow each other without an answer.
+            nap = if step.send.is_some() { Duration::ZERO } else { NAP };
             if self.follow(step)? {
                 return Ok(None);
             }
@@ -334,29 +334,27 @@ impl<B: Bus> Client<B> {
         }
     }
 
-    /// The next frame that others sent; who starts is noted.
+    /// The next frame that others sent; which node starts is noted.
     fn hear(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
         let heard = self.bus.receive(within)?;
-        let node = heard.filter(|frame| frame.bytes() == Some(&[0])).and_then(|frame| {
-            let node = frame.id().get().checked_sub(BOOT_UP)?;
-            u8::try_from(node).ok().filter(|node| (1..=127).contains(node))
-        });
-        self.started.extend(node);
+        if let Some(frame) = &heard {
+            self.restarts.hear(frame);
+        }
         Ok(heard)
     }
 
-    /// The nodes that have started, by their boot-up messages, since the client is there: what they had and did not store is lost.
+    /// Whether a node has started since the client is there: what it had and did not store is lost.
     ///
     /// # Errors
     /// [`BusError`]: nothing comes any more.
-    pub fn started(&mut self) -> Result<&BTreeSet<u8>, BusError> {
+    pub fn restarted(&mut self, node: u8) -> Result<Option<Restart>, BusError> {
         // What has come already; on a bus where others talk all the time that has an end, too.
         for _ in 0..LEFT {
             if self.hear(Duration::from_millis(1))?.is_none() {
                 break;
             }
         }
-        Ok(&self.started)
+        Ok(self.restarts.of(node))
     }
 
     /// Gives an NMT command to a node, or with node-ID 0 to all. Nodes do not answer.
@@ -374,7 +372,7 @@ impl<B: Bus> Client<B> {
     /// [`BusError`]: nothing comes any more.
     pub fn booted(&mut self, node: u8, within: Duration) -> Result<bool, BusError> {
         let begin = self.bus.now();
-        let of_node = CanId::new(BOOT_UP + u16::from(node));
+        let of_node = CanId::new(ERROR_CONTROL + u16::from(node));
         while u128::from(self.bus.now().saturating_sub(begin)) < within.as_micros() {
             let heard = self.hear(NAP)?;
             if heard.is_some_and(|frame| Some(frame.id()) == of_node && frame.bytes() == Some(&[0])) {
@@ -388,6 +386,10 @@ impl<B: Bus> Client<B> {
 /// Whether an answer holds four bytes and does not say how many of them are the value (CiA 301: e = 1, s = 0).
 fn is_without_size(answer: &Frame) -> bool {
     answer.bytes().and_then(<[u8]>::first).is_some_and(|command| command & 0b1110_0011 == 0b0100_0010)
+}
+
+fn micros(time: Duration) -> clock::Duration {
+    clock::Duration::from_micros(u64::try_from(time.as_micros()).unwrap_or(u64::MAX))
 }
 
 const fn of_bus(id: EntryId) -> firmware_glue::EntryId {

@@ -77,4 +77,6 @@ pub(crate) const PROVOKED: &[Provocation] = &[
     Provocation { code: "XDD207", arguments: FAULTY },
     Provocation { code: "XDD208", arguments: FAULTY },
     Provocation { code: "XDD209", arguments: FAULTY },
+    Provocation { code: "XDD210", arguments: FAULTY },
+    Provocation { code: "XDD211", arguments: FAULTY },
 ];

@@ -21,8 +21,8 @@ pub const CODE: &Code = &Code {
         than the device gives, and never more: a PLC believes the EDS. Correct the mapping or the access.",
     clause: Some("CiA 306, 4.6.3.2 (AccessType, PDOMapping)"),
     example: Some(Example::new(
-        "objects:\n  0x2000: {name: hours, type: unsigned32, access: ro, pdo: receive}\npdos:\n  io: {receive: {1: {map: []}}, transmit: {1: {map: []}}}",
-        "objects:\n  0x2000: {name: hours, type: unsigned32, access: ro, pdo: transmit}\npdos:\n  io: {receive: {1: {map: []}}, transmit: {1: {map: []}}}",
+        "objects:\n  0x2000: {name: hours, type: unsigned32, access: ro, pdo: receive}\npdos:\n  io: {receive: {1: {valid: no, map: []}}, transmit: {1: {valid: no, map: []}}}",
+        "objects:\n  0x2000: {name: hours, type: unsigned32, access: ro, pdo: transmit}\npdos:\n  io: {receive: {1: {valid: no, map: []}}, transmit: {1: {valid: no, map: []}}}",
     )),
 };
 

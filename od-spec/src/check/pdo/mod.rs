@@ -18,6 +18,8 @@ rules! { Rule:
     mappings_change_as_a_whole,
     mappable_entries_have_pdos,
     pdos_map_each_entry_once,
+    bus_carries_pdos,
+    valid_pdos_carry_something,
     pdos_can_be_switched_off,
     pdos_have_their_predefined_cob_ids,
     times_fit_the_transmission,

@@ -1,4 +1,4 @@
-//! Links lead from an object to others that the device has.
+//! Links lead from an object to others that the device has, to each once.
 
 use crate::check::findings::Findings;
 use crate::check::help::Help;
@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     id: "OD0323",
     severity: Severity::Error,
     foreign: Severity::Note,
-    title: "a link to nothing",
+    title: "a link that leads nowhere else",
     explanation: "The links of an object name others that belong together with it, such as the limits of a value. A link to an object that the device does not have leads nowhere: \
-        whoever follows it searches in vain. Correct the index, or remove the link. Indices below 1000h are those of data types, which are no objects of a device here; links to \
+        whoever follows it searches in vain. One to the object itself, or a second one to the same object, says nothing more; another index was meant. Correct the index, or remove the link. Indices below 1000h are those of data types, which are no objects of a device here; links to \
         them are not judged.",
     clause: Some("CiA 306 4.6.4"),
     example: Some(Example::new(
@@ -37,15 +37,23 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     };
     for object in device.objects.values() {
         let is_lost = |index: Index| !device.objects.contains_key(&index) && !is_data_type(index);
-        for link in object.links.iter().filter(|link| is_lost(link.value)) {
+        for (at, link) in object.links.iter().enumerate() {
+            let problem = if link.value == object.index {
+                format!("{} is linked to itself", object.index)
+            } else if is_lost(link.value) {
+                format!("{} is linked to {}, which {who} does not have", object.index, link.value)
+            } else if object.links[..at].contains(link) {
+                format!("{} is linked to {} twice", object.index, link.value)
+            } else {
+                continue;
+            };
             // A library knows objects that a device may leave out.
             let place = if link.span.file.is_one_with(device.span.file) {
                 link.span
             } else {
                 subject.object_place(object)
             };
-            let message = format!("{} is linked to {}, which {who} does not have", object.index, link.value);
-            findings.push(Diagnostic::new(CODE, place, message).about((object.index, Fact::Links)).help(
+            findings.push(Diagnostic::new(CODE, place, problem).about((object.index, Fact::Links)).help(
                 subject.help(Help {
                     specification: "correct the index, or remove it from `links:`",
                     eds: "correct the index, or remove it from the list and count one less",

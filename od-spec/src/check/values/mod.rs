@@ -14,6 +14,7 @@ rules! { Rule:
     integers_have_common_widths,
     real_values_are_kept,
     start_values_are_allowed,
+    special_values_mean_one_thing,
     units_measure_quantities,
     symbols_keep_their_meaning,
     quantities_are_possible,

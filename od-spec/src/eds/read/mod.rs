@@ -95,6 +95,8 @@ pub(crate) fn read(
         constraints: Vec::new(),
         errata: Vec::new(),
         sections: Vec::new(),
+        mentions: Vec::new(),
+        untranslated: Vec::new(),
         front_end: crate::ast::FrontEnd::Eds,
     };
     Read { spec, further, node }

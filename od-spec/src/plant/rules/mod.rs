@@ -28,6 +28,7 @@ rules! { Rule:
     pdos_have_two_ends,
     heartbeats_come_in_time,
     serial_numbers_differ,
+    names_name_folders,
 }
 
 /// The codes of all rules.

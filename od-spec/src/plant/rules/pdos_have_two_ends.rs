@@ -1,9 +1,9 @@
 //! Where a type tells what its master sends and receives, each PDO has a sender and a receiver.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Check, Rule};
-use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity, codes};
 use crate::plant::{Bus, Message, Traffic};
 use crate::traffic::shown;
 
@@ -59,6 +59,19 @@ fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {
         };
         if !has_other_end && let Some(finding) = without_end(bus, message) {
             diagnostics.push(finding);
+        }
+    }
+    for (list, does) in [(&master.sends, "sends"), (&master.receives, "receives")] {
+        let mut before = BTreeMap::new();
+        for id in list {
+            if let Some(first) = before.insert(id.value, id.span) {
+                let message = format!("the master {does} {} twice", shown(id.value));
+                diagnostics.push(
+                    Diagnostic::new(codes::DUPLICATE_VALUE, id.span, message)
+                        .with(first, "first here")
+                        .help("correct one of the two, or remove it"),
+                );
+            }
         }
     }
     for (list, other, code, does, lacks) in [

@@ -126,7 +126,11 @@ fn counts() -> Vec<Case> {
         )),
         unsaid(refused("a multiplexed PDO", &[number(RECEIVE, 0, 255)], "OD0511", A::PDO_LENGTH)),
         unsaid(refused("an empty entry", &[number(RECEIVE, 0, 2)], "OD0508", A::NO_OBJECT)),
-        accepted("nothing", &[number(RECEIVE, 0, 0)]),
+        accepted("nothing", &[number(RECEIVE, 0, 0)]).but(
+            Specification,
+            Said::Warned("OD0879".to_owned()),
+            Reason::EmptyIsSwitchedOff,
+        ),
         refused("a mapping that is fixed", &single(0x1602, 0x2025_0010), "OD0703", A::READ_ONLY).but(
             Specification,
             Said::Accepted,

@@ -22,6 +22,7 @@ reasons! {
     WatchingNobodyIsHarmless: "an entry of 1016h that watches nobody is a warning to who writes it; a device leaves it unused";
     DefaultIsPredefined: "masters listen where the pre-defined connection set says: a warning to who makes a device, not to who configures one";
     TwiceIsHarmless: "an entry twice in one PDO wastes room, and breaks nothing: a warning";
+    EmptyIsSwitchedOff: "who sets the number of mapped entries to 0 switches the PDO off; a specification says so by `valid: no`";
     NeverSentIsHarmless: "a PDO that is never sent is no error of the device; whoever configures it wants it sent";
     NothingReachesIt: "a SYNC start value that no counter reaches leaves a PDO silent, or has no effect: a warning";
     OnlyWhileConditionHolds: "a DCF cannot know in which state the device will be: a warning";

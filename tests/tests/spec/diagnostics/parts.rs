@@ -39,7 +39,7 @@ part-of: ../plant/lamp.od.yaml
 objects:
   0x2001: {name: hours, type: unsigned32, access: ro, about: {en: time of use, de: Nutzungsdauer}}
 errata:
-  - {at: 0x2000, kind: type, place: page 1, prints: UNSIGNED16, reads: UNSIGNED8, because: it has two values}
+  - {at: 0x2000, kind: type, place: {en: page 1, de: Seite 1}, prints: {en: UNSIGNED16, de: UNSIGNED16}, reads: {en: UNSIGNED8, de: UNSIGNED8}, because: {en: it has two values, de: zwei Werte}}
 ",
     ),
 ];
@@ -60,7 +60,7 @@ objects:
   0x2000: {name: brightness, type: level, access: rw, pdo: receive}
   0x2001: {name: hours, type: unsigned32, access: ro, about: {en: time of use, de: Nutzungsdauer}}
 errata:
-  - {at: 0x2000, kind: type, place: page 1, prints: UNSIGNED16, reads: UNSIGNED8, because: it has two values}
+  - {at: 0x2000, kind: type, place: {en: page 1, de: Seite 1}, prints: {en: UNSIGNED16, de: UNSIGNED16}, reads: {en: UNSIGNED8, de: UNSIGNED8}, because: {en: it has two values, de: zwei Werte}}
 ";
 
 fn said(text: &str, files: Files) -> String {

@@ -39,6 +39,10 @@ pub(crate) struct CheckArgs {
     #[arg(long)]
     pub notes: bool,
 
+    /// Also list every text that lacks one of the languages of its specification
+    #[arg(long)]
+    pub translations: bool,
+
     /// Show every place of a finding that an EDS or DCF has in many places, up to 1,000, not only the first three
     #[arg(long)]
     pub all: bool,

@@ -60,7 +60,7 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy, report: &R
     if let Some(root) = root {
         remark(&sources, root, &mut compiled);
     }
-    let Compiled { system, mut diagnostics, .. } = compiled;
+    let Compiled { system, mut diagnostics, untranslated, .. } = compiled;
     let kind = match root.map(|root| sources.file(root)) {
         None => Kind::Unknown,
         Some(file) if is_eds(file.name(), file.text()) || is_xdd(file.name(), file.text()) => Kind::Eds,
@@ -84,6 +84,9 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy, report: &R
         } else {
             shown.push(diagnostic.clone());
         }
+    }
+    for text in untranslated.iter().filter(|_| args.translations) {
+        shown.push(text.note());
     }
     let objects = system.map(|system| system.devices.iter().map(|device| device.objects.len()).sum());
     Checked { name: input.name(), kind, objects, shown, hidden_notes, hidden_repairs, sources }

@@ -1,18 +1,14 @@
 //! Numbers of tables, figures and sections in running text, as people write them: `Table 13`, `sections 5.2, 5.3 and 5.4`,
 //! `Kapitel 1 bis 3`.
 
-use std::cell::OnceCell;
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::LazyLock;
 
-use od_spec::wording::Language;
-
-use crate::view::Target;
+use crate::wording::Language;
 
 /// What has a number in a manual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Numbered {
+pub enum Numbered {
     /// A table.
     Table,
     /// A figure.
@@ -21,9 +17,20 @@ pub(crate) enum Numbered {
     Section,
 }
 
+impl Numbered {
+    /// In a sentence.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Table => "table",
+            Self::Figure => "figure",
+            Self::Section => "section",
+        }
+    }
+}
+
 /// A number in a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Mention<'t> {
+pub struct Mention<'t> {
     /// Where it stands; the first of a list with its noun.
     pub range: Range<usize>,
     /// What is named.
@@ -31,9 +38,6 @@ pub(crate) struct Mention<'t> {
     /// Its number, as a heading or caption has it.
     pub number: &'t str,
 }
-
-/// Where each number stands in a document; filled when the first text names one.
-pub(crate) type Numbers = OnceCell<BTreeMap<(Numbered, String), Target>>;
 
 /// How many numbers a noun has behind it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,8 +76,8 @@ static OF: LazyLock<Vec<&str>> = LazyLock::new(|| Language::words_of_all("of").c
 static OTHERS: LazyLock<Vec<&str>> = LazyLock::new(|| Language::words_of_all("other_documents").collect());
 
 /// The numbers in a text that are not those of another document, in order.
-pub(crate) fn found(text: &str) -> Vec<Mention<'_>> {
-    let mut mentions = Vec::new();
+pub fn mentions(text: &str) -> Vec<Mention<'_>> {
+    let mut found = Vec::new();
     for (at, space) in text.match_indices([' ', '\u{a0}']) {
         let Some((noun, kind, count)) = noun_before(text, at) else { continue };
         let Some(first) = number_at(text, at + space.len(), kind) else { continue };
@@ -90,10 +94,10 @@ pub(crate) fn found(text: &str) -> Vec<Mention<'_>> {
         }
         for (position, number) in numbers.into_iter().enumerate() {
             let start = if position == 0 { noun } else { number.start };
-            mentions.push(Mention { range: start..number.end, kind, number: &text[number] });
+            found.push(Mention { range: start..number.end, kind, number: &text[number] });
         }
     }
-    mentions
+    found
 }
 
 /// The noun that ends at a place: where it begins, and what it names.
@@ -195,7 +199,7 @@ mod tests {
 
     /// What is found, as `13` for a table, `(13)` for a figure and `[5.2]` for a section, each with its text.
     fn in_text(text: &str) -> Vec<String> {
-        let shown = found(text).into_iter().map(|Mention { range, kind, number }| {
+        let shown = mentions(text).into_iter().map(|Mention { range, kind, number }| {
             let number = match kind {
                 Numbered::Table => number.to_owned(),
                 Numbered::Figure => format!("({number})"),

@@ -1,10 +1,10 @@
 //! Indices in running text, as people write them: `6040h`, and `3020h.5` for an entry.
 
-use od_spec::model::{EntryId, Index, SubIndex};
+use crate::model::{EntryId, Index, SubIndex};
 
 /// An index in a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Written {
+pub struct Written {
     /// Where in the text it begins.
     pub start: usize,
     /// Where the index ends; a sub-index stands behind it.
@@ -16,7 +16,7 @@ pub(crate) struct Written {
 }
 
 /// The indices in a text, in order.
-pub(crate) fn written(text: &str) -> impl Iterator<Item = Written> {
+pub fn indices(text: &str) -> impl Iterator<Item = Written> {
     text.match_indices('h').filter_map(|(at, _)| written_before(text, at))
 }
 
@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     fn found(text: &str) -> Vec<(&str, String)> {
-        written(text).map(|one| (&text[one.start..one.end], one.id.to_string())).collect()
+        indices(text).map(|one| (&text[one.start..one.end], one.id.to_string())).collect()
     }
 
     #[test]
