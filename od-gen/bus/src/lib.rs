@@ -3,6 +3,7 @@
 
 pub mod client;
 pub mod monitor;
+pub mod program;
 pub mod runtime;
 pub mod slcan;
 #[cfg(target_os = "linux")]

@@ -10,6 +10,7 @@ mod keep;
 mod machine;
 mod monitor;
 mod network;
+mod program;
 mod reach;
 
 use std::cell::OnceCell;
@@ -40,6 +41,7 @@ pub(crate) fn run(args: &NodeArgs, directory: &Path, report: &Report) -> u8 {
         NodeCommand::Restore(args) => keep::restore(args, report),
         NodeCommand::Monitor(args) => monitor::monitor(args, directory, report),
         NodeCommand::Scan(args) => network::scan(args, report),
+        NodeCommand::Program(args) => program::program(args, report),
         NodeCommand::Nmt(args) => network::nmt(args, report),
         NodeCommand::Store(args) => network::store(args, report),
         NodeCommand::LoadDefaults(args) => network::load_defaults(args, report),
