@@ -46,8 +46,11 @@ impl House {
 
     /// `odgen node`: what it says and how it ends, as a text.
     fn node(&self, arguments: &[&str]) -> String {
-        let arguments = &allowed(arguments)[..];
-        let address = ["--timeout", "100", "--slcan", self.served.address()];
+        self.unasked(&allowed(arguments))
+    }
+
+    fn unasked(&self, arguments: &[&str]) -> String {
+        let address = ["--timeout", "500", "--slcan", self.served.address()];
         let output = odgen(&self.scratch.0, &[&["node"], arguments, &address].concat());
         let (said, failed) = (stdout(&output), stderr(&output));
         format!("$ odgen node {}\n{said}{failed}-> {}\n", arguments.join(" "), code(&output))
@@ -83,7 +86,7 @@ fn a_machine_is_kept_compared_and_given_back() {
 }
 
 #[test]
-fn a_node_that_is_silent_or_another_device_stops_a_backup_and_not_the_other_nodes() {
+fn a_node_that_is_silent_or_another_device_stops_backup_and_restore_of_all() {
     let house = House::new("machine-silent", &["heater.od.yaml", "--node", "5"]);
     house.scratch.file("other.od.yaml", HEATER.replace("product: 7", "product: 8"));
     house.scratch.file("others.yaml", HOUSE.replace("heater: heater.od", "heater: other.od"));
@@ -124,6 +127,46 @@ fn no_node_is_written_to_when_a_file_is_wrong() {
     house.scratch.file("kept/hall-warm.yaml", text);
     said.push(house.node(&restore));
     assert_snapshot!("machine-wrong", said.concat());
+}
+
+/// A turbine in a mixture is worse than one that was left as it was.
+#[test]
+fn no_node_is_written_to_before_all_can_be() {
+    let house = House::new("machine-judged", &FLAT);
+    house.scratch.file("other.od.yaml", HEATER.replace("product: 7", "product: 8"));
+    let other =
+        HOUSE.replace("{from: heater.od.yaml, device: heater}", "{from: other.od.yaml, device: heater}");
+    house.scratch.file("other.yaml", other);
+    fs::create_dir(house.scratch.0.join("kept")).unwrap();
+    let file = |name: &str, value: &str| {
+        let text = format!("od-parameters: 1\nparameters: {{wanted temperature: {value}}}\n");
+        house.scratch.file(name, text);
+    };
+    file("kept/bath-heater.yaml", "30.0 °C");
+    file("kept/hall-warm.yaml", "31.0 °C");
+    let both = |house: &House| house.node(&[&["read"], &FLAT[..], &["--node", "5", "2000"]].concat());
+    let of_other = ["other.yaml", "--machine", "2", "kept"];
+    let mut said = vec![
+        // The second node is another device.
+        house.node(&[&["restore"], &of_other[..]].concat()),
+        both(&house),
+        // It has a limit below the value of its file.
+        house.node(&[&["write"], &FLAT[..], &["--node", "6", "2000=10.0 °C", "2001=20.0 °C"]].concat()),
+        house.node(&[&["restore"], &FLAT[..], &["kept"]].concat()),
+        both(&house),
+        house.node(&[&["restore"], &FLAT[..], &["kept", "--skip", "6"]].concat()),
+        both(&house),
+        house.node(&[&["compare"], &FLAT[..], &["kept", "--skip", "9"]].concat()),
+        house.node(&[&["compare"], &FLAT[..], &["kept", "--skip", "5", "--skip", "6"]].concat()),
+        house.node(&[&["backup"], &of_other[..3], &["--out", "rest", "--skip", "6"]].concat()),
+        house.node(&["backup", "heater.od.yaml", "--out", "one.yaml", "--skip", "6"]),
+    ];
+    // One question for all.
+    house.node(&[&["write"], &FLAT[..], &["--node", "6", "2001=60.0 °C"]].concat());
+    file("kept/bath-heater.yaml", "20.0 °C");
+    said.push(house.unasked(&[&["restore"], &FLAT[..], &["kept"]].concat()));
+    said.push(house.unasked(&[&["restore"], &FLAT[..], &["kept", "--dry-run"]].concat()));
+    assert_snapshot!("machine-judged", said.concat());
 }
 
 #[test]

@@ -21,7 +21,7 @@ use crate::report::{Report, print};
 
 /// Reads entries. What cannot be read is told, and the others are read all the same.
 pub(super) fn read(args: &NodeReadArgs, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.node, report)?;
+    let described = Described::read(&args.spec, &args.node, report)?;
     let target = described.target(&args.node, None, report)?;
     let mut ids = Vec::new();
     for text in &args.entries {
@@ -81,7 +81,7 @@ fn entries(device: &Dictionary, text: &str) -> Result<Vec<EntryId>, Diagnostic> 
 
 /// Writes entries one after the other; ends with the first that fails.
 pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.node, report)?;
+    let described = Described::read(&args.spec, &args.node, report)?;
     let target = described.target(&args.node, None, report)?;
     let (mut sources, mut diagnostics) = (described.sources().clone(), Diagnostics::new());
     let mut of_line = |what: &str, text: &String| {
@@ -133,7 +133,10 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
     }
     let question = format!("write {} of {}", values(changes.len()), target.name());
     args.confirm.ask(&preview(target, &changes), &question, report)?;
-    send(&mut client, target, &meant, report)
+    target.has_started(&mut client, report)?;
+    let code = send(&mut client, target, &meant, report).unwrap_or_else(|code| code);
+    let started = target.has_started(&mut client, report);
+    Ok(started.map_or_else(|failed| code.max(failed), |()| code))
 }
 
 /// What is said of a write that is a command of its own.

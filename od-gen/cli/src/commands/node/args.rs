@@ -5,11 +5,13 @@ use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
 use od_bus::trace::Service;
+use od_spec::diag::{Diagnostic, codes};
 
 use super::confirm::ConfirmArgs;
 use super::program::NodeProgramArgs;
 use crate::bus_nodes::NodesArgs;
 use crate::messages::{Format, Messages};
+use crate::report::{Report, node_id};
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeArgs {
@@ -56,7 +58,7 @@ impl NodeCommand {
             Self::Scan(args) => args.link.messages.format,
             Self::Program(args) => args.node.link.messages.format,
             Self::Nmt(args) => args.link.messages.format,
-            Self::Store(args) | Self::LoadDefaults(args) => args.link.messages.format,
+            Self::Store(args) | Self::LoadDefaults(args) => args.node.link.messages.format,
         }
     }
 }
@@ -91,11 +93,8 @@ pub(crate) struct LinkArgs {
 /// Which node, and what device it is.
 #[derive(Debug, Args)]
 pub(crate) struct OneNodeArgs {
-    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
-    pub spec: PathBuf,
-
     /// Key of the device [default: the only one]
-    #[arg(long, value_name = "KEY")]
+    #[arg(long, value_name = "KEY", requires = "spec")]
     pub device: Option<String>,
 
     /// Node-ID, 1 to 127 [default: of a DCF or a parameter file its own]
@@ -103,23 +102,57 @@ pub(crate) struct OneNodeArgs {
     pub node: Option<String>,
 
     /// Where SPEC is a plant file: the machine, by name or number, whose nodes are meant [default: the only one]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "spec")]
     pub machine: Option<String>,
 
     /// The site of the machine [default: that of the only machine with this name]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "spec")]
     pub site: Option<String>,
 
-    /// Go on with a node that says by its device type, vendor, product, revision or serial number that it is another one
-    #[arg(long)]
+    /// Go on with a node that has another serial number, such as a spare part; everything else has to fit
+    #[arg(long, requires = "spec")]
+    pub any_serial: bool,
+
+    /// Go on with a node of another major or a lower minor revision; a higher minor one is compatible
+    #[arg(long, requires = "spec")]
+    pub any_revision: bool,
+
+    /// Go on with any node, without asking for its device type, vendor, product, revision and serial number
+    #[arg(long, requires = "spec")]
     pub any_device: bool,
 
     #[command(flatten)]
     pub link: LinkArgs,
 }
 
+/// Which nodes of a machine are left out.
+#[derive(Debug, Args)]
+pub(crate) struct SkipArgs {
+    /// Node of the machine that is left out, such as one that is not there; can be given several times
+    #[arg(long, value_name = "ID", conflicts_with = "node")]
+    skip: Vec<String>,
+}
+
+impl SkipArgs {
+    pub(super) fn ids(&self, report: &Report) -> Result<Vec<u8>, u8> {
+        self.skip.iter().map(|id| node_id(id).map_err(|diagnostic| report.refuse(diagnostic))).collect()
+    }
+
+    /// Demands that none is named, where a single node is meant.
+    pub(super) fn none(&self, report: &Report) -> Result<(), u8> {
+        if self.skip.is_empty() {
+            return Ok(());
+        }
+        let message = "`--skip` leaves out nodes of a machine, and this is about a single node";
+        Err(report.refuse(Diagnostic::without_place(codes::BAD_NODE_ID, message).help("remove `--skip`")))
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct NodeReadArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
     #[command(flatten)]
     pub node: OneNodeArgs,
 
@@ -130,6 +163,9 @@ pub(crate) struct NodeReadArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeWriteArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
     #[command(flatten)]
     pub node: OneNodeArgs,
 
@@ -151,6 +187,9 @@ pub(crate) struct NodeWriteArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeBackupArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
     #[command(flatten)]
     pub node: OneNodeArgs,
 
@@ -161,16 +200,25 @@ pub(crate) struct NodeBackupArgs {
     /// Replace files of these names
     #[arg(long)]
     pub force: bool,
+
+    #[command(flatten)]
+    pub skip: SkipArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeFileArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
     #[command(flatten)]
     pub node: OneNodeArgs,
 
     /// The parameter file; of a machine of a plant the directory with a file of each node
     #[arg(value_name = "FILE|DIR")]
     pub file: PathBuf,
+
+    #[command(flatten)]
+    pub skip: SkipArgs,
 }
 
 #[derive(Debug, Args)]
@@ -296,9 +344,12 @@ pub(crate) enum NmtName {
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeGroupArgs {
-    /// Node-ID, 1 to 127
-    #[arg(long, value_name = "ID")]
-    pub node: String,
+    /// Specification, EDS, DCF, XDD or XDC of the node's device, or a plant file: whether the node is this one is asked first [default: what
+    /// the node says of itself is shown]
+    pub spec: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub node: OneNodeArgs,
 
     /// Which parameters: 1 all, 2 communication, 3 application, from 4 on the manufacturer's
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=127))]
@@ -306,7 +357,4 @@ pub(crate) struct NodeGroupArgs {
 
     #[command(flatten)]
     pub confirm: ConfirmArgs,
-
-    #[command(flatten)]
-    pub link: LinkArgs,
 }

@@ -1,40 +1,36 @@
-//! `odgen node backup`, `compare` and `restore`: the parameters of a node as a file.
+//! `odgen node backup` and `compare`: the parameters of a node as a file.
 
-use std::cell::OnceCell;
-use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use od_bus::client::{Bus, Client, involved, judged, kept, plan};
+use od_bus::client::{Bus, Client, kept};
 use od_gen::Artifact;
 use od_gen::files::Existing;
 use od_import::parameters::{About, ParameterText, write_all};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
-use od_spec::model::{EntryId, Index, Role, Value, Write};
-use od_spec::source::{SourceMap, Span};
-use od_spec::{Assigned, Commissioning, Layer, ParameterValues, assign_layers, rule_codes};
+use od_spec::model::Value;
+use od_spec::source::SourceMap;
+use od_spec::{Commissioning, Layer, ParameterValues, assign_layers};
 
-use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs};
-use super::confirm::{Change, ConfirmArgs, preview};
-use super::doubt::{Presence, Unwritten, sent};
+use super::args::{NodeBackupArgs, NodeFileArgs};
 use super::had::{Had, had, values, words};
-use super::hand::{InHand, pdo_of, tell_unsent};
+use super::machine::Machine;
 use super::reach::SERIAL_NUMBER;
-use super::{Described, Target, has_started, on_the_bus, reach};
+use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{DIFFERS, ERRORS, SUCCESS};
-use crate::interrupt::Interrupt;
 use crate::output::{forced, keep};
 use crate::report::{Report, print, shown};
 use crate::settings::{ParameterFiles, parameter_files};
 
 /// Writes a parameter file of what a node has; none where it does not answer.
 pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.node, report)?;
+    let described = Described::read(&args.spec, &args.node, report)?;
     if let Described::Machine(machine) = &described
         && args.node.node.is_none()
     {
         return machine.backup(args, report);
     }
+    args.skip.none(report)?;
     let target = described.target(&args.node, None, report)?;
     let name = args.out.file_name().and_then(|name| name.to_str()).ok_or_else(|| {
         let message = format!("cannot write `{}`: it names no file", args.out.display());
@@ -42,7 +38,7 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
     })?;
     let mut client = reach(&args.node, target, report)?;
     let written = parameters_of(&mut client, args, target, described.sources(), report)?;
-    has_started(&mut client, target, report)?;
+    target.has_started(&mut client, report)?;
     let artifact =
         Artifact { path: name.to_owned(), bytes: written.text.into_bytes(), purpose: String::new() };
     let directory = args.out.parent().unwrap_or(Path::new(""));
@@ -106,11 +102,11 @@ fn serial_number<B: Bus>(
 /// A parameter file and the node that it is laid beside.
 pub(super) struct Beside<'a> {
     pub(super) target: Target<'a>,
-    file: PathBuf,
-    sources: SourceMap,
-    layers: Vec<Layer>,
+    pub(super) file: PathBuf,
+    pub(super) sources: SourceMap,
+    pub(super) layers: Vec<Layer>,
     /// The entries that the file sets, with their values.
-    meant: ParameterValues,
+    pub(super) meant: ParameterValues,
 }
 
 /// Reads a parameter file for a node and checks it as for a DCF. What is no error depends on what the node has, and is told then.
@@ -143,7 +139,7 @@ pub(super) fn beside<'a>(
 }
 
 /// Shows what a check says; its errors end the command.
-fn shown_errors(found: &Diagnostics, sources: &SourceMap, report: &Report) -> Result<(), u8> {
+pub(super) fn shown_errors(found: &Diagnostics, sources: &SourceMap, report: &Report) -> Result<(), u8> {
     let counting = on_the_bus(found, &[]);
     report.show(&counting, sources);
     if counting.has_errors() { Err(ERRORS) } else { Ok(()) }
@@ -155,7 +151,12 @@ fn is_same(one: &Value, other: &Value, node: u8) -> bool {
 }
 
 /// Tells what a node has otherwise than a file, and what it does not tell; how many of each.
-fn told_differences(target: Target<'_>, meant: &ParameterValues, had: &Had, report: &Report) -> (usize, u8) {
+pub(super) fn told_differences(
+    target: Target<'_>,
+    meant: &ParameterValues,
+    had: &Had,
+    report: &Report,
+) -> (usize, u8) {
     let (mut count, mut code) = (0, SUCCESS);
     for (id, wanted) in meant {
         let name = target.words().entry(*id);
@@ -178,73 +179,44 @@ fn told_differences(target: Target<'_>, meant: &ParameterValues, had: &Had, repo
     (count, code)
 }
 
-/// What is done with a node and a parameter file.
-#[derive(Clone, Copy)]
-pub(super) enum WithFile<'a> {
-    Compare,
-    /// What allows the writes, and what ends them; Ctrl-C is noted from the first of them on.
-    Restore(&'a ConfirmArgs, &'a OnceCell<Interrupt>),
-}
-
-impl WithFile<'_> {
-    /// Done with all nodes: `compared`.
-    pub(super) const fn done(self) -> &'static str {
-        match self {
-            Self::Compare => "compared",
-            Self::Restore(ConfirmArgs { dry_run: true, .. }, _) => "looked at",
-            Self::Restore(..) => "restored",
-        }
-    }
-
-    /// Whether somebody wants it to end.
-    pub(super) fn is_interrupted(self) -> bool {
-        match self {
-            Self::Compare => false,
-            Self::Restore(_, interrupt) => interrupt.get().is_some_and(Interrupt::is_wanted),
-        }
-    }
-
-    /// Does it; the exit code.
-    pub(super) fn with<B: Bus>(
-        self,
-        client: &mut Client<B>,
-        beside: &Beside<'_>,
-        report: &Report,
-    ) -> Result<u8, u8> {
-        match self {
-            Self::Compare => compared(client, beside, report),
-            Self::Restore(confirm, interrupt) => restored(client, beside, confirm, interrupt, report),
-        }
-    }
-}
-
 /// Reads what a file sets, and tells where the node differs; the same for the files of a directory and the nodes of a machine.
 pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
-    with_file(args, WithFile::Compare, report)
-}
-
-/// Writes what a file sets and the node has otherwise, and reads all of it back; the same for the files of a directory and the nodes of a
-/// machine.
-pub(super) fn restore(args: &NodeRestoreArgs, report: &Report) -> Result<u8, u8> {
-    with_file(&args.file, WithFile::Restore(&args.confirm, &OnceCell::new()), report)
-}
-
-fn with_file(args: &NodeFileArgs, work: WithFile<'_>, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.node, report)?;
-    if let Described::Machine(machine) = &described
-        && args.file.is_dir()
-    {
-        return machine.with_files(args, work, report);
+    let described = Described::read(&args.spec, &args.node, report)?;
+    if let Some(machine) = machine_of(&described, args) {
+        return machine.compare(args, report);
     }
-    let target_of = |files: &ParameterFiles| described.target(&args.node, Some(files), report);
-    let beside = beside(described.sources(), args.file.clone(), target_of, report)?;
+    let beside = beside_one(&described, args, report)?;
     let mut client = reach(&args.node, beside.target, report)?;
-    let code = work.with(&mut client, &beside, report)?;
-    has_started(&mut client, beside.target, report)?;
+    let code = compared(&mut client, &beside, report)?;
+    beside.target.has_started(&mut client, report)?;
     Ok(code)
 }
 
-fn compared<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report) -> Result<u8, u8> {
+/// The machine whose nodes have a file each in the directory that a command line names.
+pub(super) fn machine_of<'d>(described: &'d Described, args: &NodeFileArgs) -> Option<&'d Machine> {
+    match described {
+        Described::Machine(machine) => args.file.is_dir().then_some(machine),
+        Described::Devices { .. } => None,
+    }
+}
+
+/// The file of a single node.
+pub(super) fn beside_one<'a>(
+    described: &'a Described,
+    args: &NodeFileArgs,
+    report: &Report,
+) -> Result<Beside<'a>, u8> {
+    args.skip.none(report)?;
+    let target_of = |files: &ParameterFiles| described.target(&args.node, Some(files), report);
+    beside(described.sources(), args.file.clone(), target_of, report)
+}
+
+/// Compares one node with its file; the exit code.
+pub(super) fn compared<B: Bus>(
+    client: &mut Client<B>,
+    beside: &Beside<'_>,
+    report: &Report,
+) -> Result<u8, u8> {
     let Beside { target, file, meant, .. } = beside;
     let target = *target;
     let had = had(client, target, meant.keys().copied(), report)?;
@@ -260,169 +232,4 @@ fn compared<B: Bus>(client: &mut Client<B>, beside: &Beside<'_>, report: &Report
         SUCCESS if count > 0 => DIFFERS,
         code => code,
     })
-}
-
-fn restored<B: Bus>(
-    client: &mut Client<B>,
-    beside: &Beside<'_>,
-    confirm: &ConfirmArgs,
-    interrupt: &OnceCell<Interrupt>,
-    report: &Report,
-) -> Result<u8, u8> {
-    let Beside { target, file, sources, layers, meant } = beside;
-    let target = *target;
-    let written_ids: BTreeSet<EntryId> = meant.keys().copied().collect();
-    let asked_for = judged(target.system, target.device, &written_ids);
-    let ids: BTreeSet<EntryId> =
-        kept(target.device).chain(written_ids).chain(asked_for.iter().copied()).collect();
-    let before = had(client, target, ids, report)?;
-    // What the file does not set stays as the node has it, and rules look at that.
-    before.tell_taken_for_default(target, &asked_for, report);
-    let mut now = Commissioning::of_node(target.device, target.id);
-    now.values.clone_from(&before.values);
-    let mut diagnostics = Diagnostics::new();
-    let of_node = now.configured(target.device);
-    let assigned = assign_layers(target.system, &of_node, target.id, layers, &mut diagnostics);
-    if on_the_bus(&diagnostics, &[]).has_errors() {
-        report.note("nothing was written; with what the node has beside the values of the file:");
-        shown_errors(&diagnostics, sources, report)?;
-    }
-    let writes =
-        plan(target.system, target.device, target.id, &before.values, meant).map_err(|no_value| {
-            let diagnostic = Diagnostic::without_place(rule_codes::VALUE_DOES_NOT_FIT, no_value.to_string());
-            report.refuse(diagnostic.help("correct the value"))
-        })?;
-    shown_errors(&about_writes(&diagnostics, sources, &assigned, &writes), sources, report)?;
-    for write in writes.iter().filter(|write| assigned.unlocked.contains(&write.id)) {
-        report.note(&format!(
-            "LOCKED {}: the device takes it only while it is unlocked for service",
-            target.words().entry(write.id)
-        ));
-    }
-    if !writes.is_empty() {
-        let changes = changes(target, &before, &writes);
-        let question = format!("write {} of {}", values(changes.len()), target.name());
-        confirm.ask(&preview(target, &changes), &question, report)?;
-    }
-    let interrupt = interrupt.get_or_init(Interrupt::noted_with_hangup);
-    let code = written(client, target, &writes, interrupt, report)?;
-    let after = had(client, target, meant.keys().copied(), report)?;
-    let (count, unread) = told_differences(target, meant, &after, report);
-    let code = code.max(unread);
-    if count > 0 {
-        let has = if count == 1 { "has" } else { "have" };
-        let message = format!("{}: {} of the file {has} not come back", target.name(), values(count));
-        return Ok(code.max(
-            report.refuse(
-                Diagnostic::without_place(codes::ACCESS_FAILED, message)
-                    .help("see above what the node has in their place"),
-            ),
-        ));
-    }
-    let held = values(meant.len());
-    let line = format!("  {}  {held} read back as in {}\n", target.name(), shown(file));
-    Ok(if code == SUCCESS { print(&line) } else { code })
-}
-
-/// What some writes change: of an entry that is written twice, as that of a PDO which is switched off and on, the last.
-fn changes(target: Target<'_>, before: &Had, writes: &[Write]) -> Vec<Change> {
-    let mut last: Vec<Change> = Vec::new();
-    for write in writes {
-        let old = before.values.get(&write.id).map(|old| words(target, write.id, old));
-        let new = target.words().value(write.id, &write.bytes);
-        last.retain(|change| change.id != write.id);
-        last.push(Change { id: write.id, old, new });
-    }
-    last.retain(|change| change.old.as_ref() != Some(&change.new));
-    last
-}
-
-/// What a check says, but of values that the node has already and that are not written.
-fn about_writes(
-    found: &Diagnostics,
-    sources: &SourceMap,
-    assigned: &Assigned,
-    writes: &[Write],
-) -> Diagnostics {
-    let line = |span: Span| (span.file, sources.file(span.file).line_col(span.start).line);
-    let written: BTreeSet<EntryId> = writes.iter().map(|write| write.id).collect();
-    let unwritten = assigned.origins.iter().filter(|(id, _)| !written.contains(id));
-    let unwritten: BTreeSet<_> = unwritten.map(|(_, origin)| line(origin.span)).collect();
-    let mut told = Diagnostics::new();
-    for one in found {
-        if !one.labels.first().is_some_and(|label| unwritten.contains(&line(label.span))) {
-            told.push(one.clone());
-        }
-    }
-    told
-}
-
-/// What must not be written any more, as a node has refused something that belongs with it.
-struct HeldBack<'a> {
-    target: Target<'a>,
-    /// What was refused, or held back itself.
-    first: BTreeSet<EntryId>,
-    /// What conditions join with that.
-    joined: BTreeSet<EntryId>,
-}
-
-impl HeldBack<'_> {
-    fn add(&mut self, id: EntryId) {
-        self.first.insert(id);
-        self.joined.extend(involved(self.target.system, self.target.device, &BTreeSet::from([id])));
-    }
-
-    /// A value beside one that did not come may break a condition, or switch on a PDO that carries something else; and what is not
-    /// whole must not be stored.
-    fn has(&self, id: EntryId) -> bool {
-        let keeps = Role::of(id.index) == Role::StoreParameters || id.index == CONFIGURATION_DATE;
-        let is_of_same_pdo =
-            |one: &EntryId| pdo_of(one.index).is_some() && pdo_of(one.index) == pdo_of(id.index);
-        self.joined.contains(&id)
-            || self.first.iter().any(is_of_same_pdo)
-            || (keeps && !self.first.is_empty())
-    }
-}
-
-/// Verify configuration (1020h): what a configuration tool leaves behind when everything is written.
-const CONFIGURATION_DATE: Index = Index(0x1020);
-
-/// Carries out writes. One that is refused is told, and of the next ones those are tried that have nothing to do with it; the exit code
-/// where the node is gone.
-fn written<B: Bus>(
-    client: &mut Client<B>,
-    target: Target<'_>,
-    writes: &[Write],
-    interrupt: &Interrupt,
-    report: &Report,
-) -> Result<u8, u8> {
-    let (mut code, mut in_hand) = (SUCCESS, InHand::new(interrupt));
-    let mut held_back = HeldBack { target, first: BTreeSet::new(), joined: BTreeSet::new() };
-    for (at, write) in writes.iter().enumerate() {
-        if held_back.has(write.id) {
-            let name = target.words().entry(write.id);
-            report.note(&format!("not sent, as it belongs with what was refused: {name}"));
-            held_back.add(write.id);
-            continue;
-        }
-        if !in_hand.takes(write.id) {
-            continue;
-        }
-        match sent(client, target, write.id, &write.bytes, report) {
-            Ok(()) => {
-                let line = super::access::line(target, write.id, &write.bytes);
-                code = code.max(print(&format!("{}{line}  written\n", target.mark())));
-            }
-            Err(Unwritten { why, node }) => {
-                code = code.max(report.refuse(*why));
-                held_back.add(write.id);
-                if node == Presence::Gone {
-                    let unsent: Vec<EntryId> = writes.iter().skip(at + 1).map(|write| write.id).collect();
-                    tell_unsent(target, &unsent, report);
-                    return Err(code);
-                }
-            }
-        }
-    }
-    in_hand.end(target, report).map(|()| code)
 }

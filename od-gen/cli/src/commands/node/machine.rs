@@ -1,10 +1,10 @@
 //! The nodes of a machine of a plant, and `odgen node backup`, `compare` and `restore` of all of them.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use od_bus::client::{Bus, Client};
 use od_gen::Artifact;
 use od_gen::files::Existing;
 use od_plant::stem;
@@ -12,10 +12,12 @@ use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 
-use super::args::{NodeBackupArgs, NodeFileArgs, OneNodeArgs};
-use super::keep::{WithFile, beside, kept_line, parameters_of};
-use super::{Target, connect, has_started, is_meant};
-use crate::exit::{DIFFERS, INTERRUPTED, SUCCESS, USAGE};
+use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs, OneNodeArgs, SkipArgs};
+use super::keep::{Beside, beside, compared, kept_line, parameters_of};
+use super::outcome::{Outcome, State, worse};
+use super::restore::restored;
+use super::{Target, connect, is_meant};
+use crate::exit::{DIFFERS, SUCCESS};
 use crate::output::{forced, keep};
 use crate::plant_file;
 use crate::report::{Report, node_id, print, shown};
@@ -59,8 +61,8 @@ impl Node {
 
 impl Machine {
     /// The machine that a command line names.
-    pub(super) fn read(args: &OneNodeArgs, report: &Report) -> Result<Self, u8> {
-        let plant_file::Read { plant, sources, .. } = plant_file::read(&args.spec, report)?;
+    pub(super) fn read(spec: &Path, args: &OneNodeArgs, report: &Report) -> Result<Self, u8> {
+        let plant_file::Read { plant, sources, .. } = plant_file::read(spec, report)?;
         let machine = plant_file::machine(&plant, args.site.as_deref(), args.machine.as_deref())
             .map_err(|diagnostic| report.refuse(*diagnostic))?;
         let mut nodes = Vec::new();
@@ -99,7 +101,7 @@ impl Machine {
 
     /// Writes a parameter file of each node; none where one of them does not answer.
     pub(super) fn backup(&self, args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
-        let nodes = self.chosen(&args.node, report)?;
+        let nodes = self.chosen(&args.node, &args.skip, report)?;
         let mut client = connect(&args.node.link, report)?;
         let (mut set, mut lines, mut code) = (Vec::new(), String::new(), SUCCESS);
         for node in nodes {
@@ -115,14 +117,14 @@ impl Machine {
                 Err(failed) => code = worse(code, failed),
             }
         }
-        for target in self.chosen(&args.node, report)?.into_iter().map(Node::target) {
-            if let Err(failed) = has_started(&mut client, target, report) {
+        for target in self.chosen(&args.node, &args.skip, report)?.into_iter().map(Node::target) {
+            if let Err(failed) = target.has_started(&mut client, report) {
                 code = worse(code, failed);
             }
         }
         if code != SUCCESS {
             report.note(
-                "no file was written, as not every node tells what it has; `--node ID` backs up a single one",
+                "no file was written, as not every node tells what it has; `--skip ID` leaves a node out",
             );
             return Err(code);
         }
@@ -131,15 +133,32 @@ impl Machine {
         Ok(print(&lines))
     }
 
-    /// Takes the file of each node from a directory, checks all of them, and does something with each node.
-    pub(super) fn with_files(
-        &self,
-        args: &NodeFileArgs,
-        work: WithFile<'_>,
-        report: &Report,
-    ) -> Result<u8, u8> {
+    /// Compares each node with its file of a directory.
+    pub(super) fn compare(&self, args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
+        let all = self.files(args, report)?;
+        let mut client = connect(&args.node.link, report)?;
+        let mut outcomes = Vec::new();
+        for beside in &all {
+            let code = is_meant(&mut client, &args.node, beside.target, report)
+                .and_then(|()| compared(&mut client, beside, report))
+                .unwrap_or_else(|code| code);
+            outcomes.push(Outcome::after(beside.target, code, 0));
+        }
+        Ok(self.told(&mut client, "compared", outcomes, report))
+    }
+
+    /// Gives each node the values of its file of a directory.
+    pub(super) fn restore(&self, args: &NodeRestoreArgs, report: &Report) -> Result<u8, u8> {
+        let all = self.files(&args.file, report)?;
+        let mut client = connect(&args.file.node.link, report)?;
+        let outcomes = restored(&mut client, args, &all, report)?;
+        Ok(self.told(&mut client, "restored", outcomes, report))
+    }
+
+    /// Reads the file of each node from a directory, and checks all of them.
+    fn files(&self, args: &NodeFileArgs, report: &Report) -> Result<Vec<Beside<'_>>, u8> {
         let (mut all, mut code) = (Vec::new(), SUCCESS);
-        for node in self.chosen(&args.node, report)? {
+        for node in self.chosen(&args.node, &args.skip, report)? {
             let path = args.file.join(node.file());
             match beside(&self.sources, path, |_| Ok(node.target()), report) {
                 Ok(beside) => all.push(beside),
@@ -153,39 +172,25 @@ impl Machine {
             report.note("no node was asked, as not every file is right");
             return Err(code);
         }
-        let mut client = connect(&args.node.link, report)?;
-        let mut outcomes = Vec::new();
-        for beside in &all {
-            if work.is_interrupted() {
-                outcomes.push((beside.target, INTERRUPTED, "not asked any more".to_owned()));
-                continue;
-            }
-            let writes = client.writes();
-            let one = is_meant(&mut client, &args.node, beside.target, report)
-                .and_then(|()| work.with(&mut client, beside, report))
-                .unwrap_or_else(|code| code);
-            // There is nobody to ask, for any of them.
-            if one == USAGE {
-                return Err(USAGE);
-            }
-            let state = state(one, work.done(), client.writes() - writes);
-            outcomes.push((beside.target, one, state));
+        Ok(all)
+    }
+
+    /// Tells what became of the nodes; the exit code.
+    fn told<B: Bus>(
+        &self,
+        client: &mut Client<B>,
+        done: &str,
+        mut outcomes: Vec<Outcome<'_>>,
+        report: &Report,
+    ) -> u8 {
+        for outcome in &mut outcomes {
+            outcome.heed_start(client, report);
         }
-        // One that was done with first may have started again while others were.
-        let (mut well, mut differing, mut started, mut states) = (0, 0, Vec::new(), String::new());
-        for (target, one, state) in outcomes {
-            let (one, state) = match has_started(&mut client, target, report) {
-                Ok(()) => (one, state),
-                Err(failed) => {
-                    started.push(target.name());
-                    (worse(one, failed), "started again in the middle".to_owned())
-                }
-            };
-            well += usize::from(one == SUCCESS);
-            differing += usize::from(one == DIFFERS);
-            code = worse(code, one);
-            let _ = writeln!(states, "  {}  {state}", target.name());
-        }
+        let code = outcomes.iter().fold(SUCCESS, |code, outcome| worse(code, outcome.code));
+        let count = |state| outcomes.iter().filter(|outcome| outcome.state == state).count();
+        let (differing, well) = (count(State::Differs), count(State::Done) + count(State::Differs));
+        let started = outcomes.iter().filter(|outcome| outcome.state == State::Started);
+        let started: Vec<String> = started.map(|outcome| outcome.target.name()).collect();
         let again = if started.is_empty() {
             String::new()
         } else {
@@ -196,18 +201,30 @@ impl Machine {
             1 => ", 1 differs".to_owned(),
             count => format!(", {count} differ"),
         };
-        let (name, done) = (&self.name, work.done());
-        let line = format!("{name}: {} of {} nodes {done}{differ}{again}\n", well + differing, all.len());
-        let is_well = matches!(code, SUCCESS | DIFFERS);
-        Ok(worse(code, print(&if is_well { line } else { line + &states })))
+        let mut text = format!("{}: {well} of {} nodes {done}{differ}{again}\n", self.name, outcomes.len());
+        if !matches!(code, SUCCESS | DIFFERS) {
+            text.extend(outcomes.iter().map(|outcome| outcome.line(done)));
+        }
+        worse(code, print(&text))
     }
 
-    /// All nodes, or those that the command line names.
-    fn chosen(&self, args: &OneNodeArgs, report: &Report) -> Result<Vec<&Node>, u8> {
+    /// All nodes, or those that the command line names, without those that it leaves out.
+    fn chosen(&self, args: &OneNodeArgs, skip: &SkipArgs, report: &Report) -> Result<Vec<&Node>, u8> {
         let id = args.node.as_deref().map(node_id).transpose().map_err(|one| report.refuse(one))?;
         let key = args.device.as_deref();
+        let skipped = skip.ids(report)?;
+        let unknown = skipped.iter().find(|id| self.fitting(Some(**id), None).next().is_none());
+        if let Some(unknown) = unknown {
+            let message = format!("{} has no node {unknown}", self.name);
+            let help = format!("write `--skip ID`: {}", self.listed());
+            return Err(report.refuse(Diagnostic::without_place(codes::BAD_NODE_ID, message).help(help)));
+        }
         let found: Vec<&Node> = self.fitting(id, key).collect();
-        if found.is_empty() { Err(report.refuse(self.no_node(id, key))) } else { Ok(found) }
+        if found.is_empty() {
+            return Err(report.refuse(self.no_node(id, key)));
+        }
+        let left: Vec<&Node> = found.into_iter().filter(|node| !skipped.contains(&node.id)).collect();
+        if left.is_empty() { Err(report.refuse(none_left())) } else { Ok(left) }
     }
 
     fn fitting(&self, id: Option<u8>, key: Option<&str>) -> impl Iterator<Item = &Node> {
@@ -230,9 +247,14 @@ impl Machine {
             }
             (None, None) => format!("no node-ID is given, and {} has {} nodes", self.name, self.nodes.len()),
         };
-        let nodes = self.nodes.iter().map(|node| format!("{} ({} {})", node.id, node.position, node.key));
-        let help = format!("write `--node ID`: {}", nodes.collect::<Vec<_>>().join(", "));
+        let help = format!("write `--node ID`: {}", self.listed());
         Diagnostic::without_place(codes::BAD_NODE_ID, message).help(help)
+    }
+
+    /// `5 (bath heater), 6 (hall warm)`.
+    fn listed(&self) -> String {
+        let nodes = self.nodes.iter().map(|node| format!("{} ({} {})", node.id, node.position, node.key));
+        nodes.collect::<Vec<_>>().join(", ")
     }
 
     /// Files of a directory that look like parameter files and belong to no node.
@@ -248,21 +270,8 @@ impl Machine {
     }
 }
 
-/// In which state a node is that something was done with.
-fn state(code: u8, done: &str, writes: usize) -> String {
-    match (code, writes) {
-        (SUCCESS, _) => done.to_owned(),
-        (DIFFERS, _) => "differs".to_owned(),
-        (_, 0) => format!("not {done}, left as it was"),
-        (_, 1) => format!("not {done}, 1 value was sent"),
-        (_, _) => format!("not {done}, {writes} values were sent"),
-    }
-}
-
-/// The exit code for two things: an error outweighs a difference.
-fn worse(one: u8, other: u8) -> u8 {
-    match (one, other) {
-        (SUCCESS | DIFFERS, SUCCESS | DIFFERS) => one.max(other),
-        (SUCCESS | DIFFERS, failed) | (failed, _) => failed,
-    }
+/// What is said where `--skip` leaves out all nodes.
+fn none_left() -> Diagnostic {
+    Diagnostic::without_place(codes::BAD_NODE_ID, "`--skip` leaves out all nodes")
+        .help("leave out only the nodes that something is wrong with")
 }

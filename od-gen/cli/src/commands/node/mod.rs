@@ -10,8 +10,11 @@ mod keep;
 mod machine;
 mod monitor;
 mod network;
+mod outcome;
 mod program;
 mod reach;
+mod restore;
+mod sign;
 
 use std::cell::OnceCell;
 use std::path::Path;
@@ -38,13 +41,13 @@ pub(crate) fn run(args: &NodeArgs, directory: &Path, report: &Report) -> u8 {
         NodeCommand::Write(args) => access::write(args, report),
         NodeCommand::Backup(args) => keep::backup(args, report),
         NodeCommand::Compare(args) => keep::compare(args, report),
-        NodeCommand::Restore(args) => keep::restore(args, report),
+        NodeCommand::Restore(args) => restore::restore(args, report),
         NodeCommand::Monitor(args) => monitor::monitor(args, directory, report),
         NodeCommand::Scan(args) => network::scan(args, report),
         NodeCommand::Program(args) => program::program(args, report),
         NodeCommand::Nmt(args) => network::nmt(args, report),
-        NodeCommand::Store(args) => network::store(args, report),
-        NodeCommand::LoadDefaults(args) => network::load_defaults(args, report),
+        NodeCommand::Store(args) => sign::store(args, report),
+        NodeCommand::LoadDefaults(args) => sign::load_defaults(args, report),
     };
     done.unwrap_or_else(|code| code)
 }
@@ -75,15 +78,15 @@ struct Target<'a> {
 }
 
 impl Described {
-    fn read(args: &OneNodeArgs, report: &Report) -> Result<Self, u8> {
-        if plant_file::names_plant(&args.spec) {
-            return Machine::read(args, report).map(Self::Machine);
+    fn read(spec: &Path, args: &OneNodeArgs, report: &Report) -> Result<Self, u8> {
+        if plant_file::names_plant(spec) {
+            return Machine::read(spec, args, report).map(Self::Machine);
         }
         if args.machine.is_some() || args.site.is_some() {
             let help = "name a plant file, or leave out `--machine` and `--site`";
-            return Err(report.refuse(plant_file::no_plant(&args.spec, help)));
+            return Err(report.refuse(plant_file::no_plant(spec, help)));
         }
-        let spec = crate::specs::one(Some(&args.spec), Path::new("."), report)?;
+        let spec = crate::specs::one(Some(spec), Path::new("."), report)?;
         let (used, sources) = report.compile_with_sources(&spec).ok_or(ERRORS)?;
         Ok(Self::Devices { used: Box::new(used), sources, configured: Box::default() })
     }
@@ -114,12 +117,7 @@ impl Described {
             Some(files) => files.device(system, key, report)?,
             None => report.device_or_only(system, key)?,
         };
-        let id = used.node_id(stated).ok_or_else(|| {
-            report.refuse(
-                Diagnostic::without_place(codes::BAD_NODE_ID, "no node-ID is given")
-                    .help("add `--node ID`, 1 to 127"),
-            )
-        })?;
+        let id = used.node_id(stated).ok_or_else(|| report.refuse(no_node_id()))?;
         let device = match &used.node {
             Some(of_file) => {
                 configured.get_or_init(|| report.moved(of_file, Some(id), sources).configured(device))
@@ -155,11 +153,21 @@ impl<'a> Target<'a> {
         }
     }
 
+    /// The exit code, after a message, where it has started since the client is there.
+    fn has_started<B: Bus>(self, client: &mut Client<B>, report: &Report) -> Result<(), u8> {
+        has_started(client, self.id, &self.name(), report)
+    }
+
     /// What is said about an access that failed.
     fn failed(self, what: &str, id: EntryId, error: &AccessError) -> Diagnostic {
         let message = format!("{}: cannot {what} {}: {error}", self.name(), self.words().entry(id));
         helped(Diagnostic::without_place(codes::ACCESS_FAILED, message), error)
     }
+}
+
+/// What is said where it is not known which node is meant.
+fn no_node_id() -> Diagnostic {
+    Diagnostic::without_place(codes::BAD_NODE_ID, "no node-ID is given").help("add `--node ID`, 1 to 127")
 }
 
 /// A message with what can be done about the failure.

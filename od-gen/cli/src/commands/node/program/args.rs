@@ -10,6 +10,9 @@ use super::super::confirm::ConfirmArgs;
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeProgramArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
     #[command(flatten)]
     pub node: OneNodeArgs,
 

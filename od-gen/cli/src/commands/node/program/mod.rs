@@ -21,7 +21,7 @@ use crate::report::{Report, print, shown};
 
 /// Stops a program of a node, deletes it, loads another one, and starts that.
 pub(super) fn program(args: &NodeProgramArgs, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.node, report)?;
+    let described = Described::read(&args.spec, &args.node, report)?;
     let target = described.target(&args.node, None, report)?;
     let places = Places::of(target, args.program).map_err(|diagnostic| report.refuse(diagnostic))?;
     let data = data(&args.file).map_err(|diagnostic| report.refuse(diagnostic))?;
