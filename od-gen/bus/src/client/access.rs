@@ -229,16 +229,22 @@ impl<B: Bus> Client<B> {
     fn read_whole(&mut self, node: u8, id: EntryId) -> Result<(Vec<u8>, Option<Frame>), AccessError> {
         let client = self.sdo(node)?;
         let mut retries = self.retries;
+        // Answers that may still come, too late: for the next request they are wrong.
+        let mut late = 0_u8;
         loop {
             let now = self.now();
             let (mut reading, request) = client.start_read(of_bus(id), Collected::default(), now);
             self.bus.send(&request)?;
             match self.finish(client.channel, &mut reading) {
                 Ok(last) => return Ok((reading.into_sink().0, last)),
+                Err(AccessError::Wrong(_)) if late > 0 => late -= 1,
                 Err(error) if retries == 0 || error.is_of_entry() || matches!(error, AccessError::Bus(_)) => {
                     return Err(error);
                 }
-                Err(_) => retries -= 1,
+                Err(error) => {
+                    retries -= 1;
+                    late += u8::from(matches!(error, AccessError::Silent));
+                }
             }
         }
     }

@@ -439,6 +439,23 @@ fn a_read_is_repeated_when_a_frame_was_lost_or_broken() {
     );
 }
 
+/// The late answer begins the second transfer, and the answer to that comes in its middle.
+#[test]
+fn an_answer_that_came_too_late_uses_up_no_repetition() {
+    let mut late = None;
+    let becomes = move |at, frame| {
+        if at == 1 {
+            late = Some(frame);
+            return Vec::new();
+        }
+        late.take().into_iter().chain([frame]).collect()
+    };
+    with_dirt(becomes, |client| {
+        assert_eq!(client.read(5, id(0x2002)).unwrap(), b"A lamp of glass");
+        assert_eq!(client.read(5, id(0x2000)).unwrap(), [20, 0]);
+    });
+}
+
 #[test]
 fn a_broken_answer_is_no_end_of_the_node() {
     let becomes = |_, frame: Frame| match frame.bytes() {
