@@ -229,16 +229,22 @@ impl<B: Bus> Client<B> {
     fn read_whole(&mut self, node: u8, id: EntryId) -> Result<(Vec<u8>, Option<Frame>), AccessError> {
         let client = self.sdo(node)?;
         let mut retries = self.retries;
+        // Answers that may still come, too late: for the next request they are wrong.
+        let mut late = 0_u8;
         loop {
             let now = self.now();
             let (mut reading, request) = client.start_read(of_bus(id), Collected::default(), now);
             self.bus.send(&request)?;
             match self.finish(client.channel, &mut reading) {
                 Ok(last) => return Ok((reading.into_sink().0, last)),
+                Err(AccessError::Wrong(_)) if late > 0 => late -= 1,
                 Err(error) if retries == 0 || error.is_of_entry() || matches!(error, AccessError::Bus(_)) => {
                     return Err(error);
                 }
-                Err(_) => retries -= 1,
+                Err(error) => {
+                    retries -= 1;
+                    late += u8::from(matches!(error, AccessError::Silent));
+                }
             }
         }
     }
@@ -362,8 +368,12 @@ impl<B: Bus> Client<B> {
     /// # Errors
     /// [`BusError`]: it was not sent.
     pub fn command(&mut self, command: u8, node: u8) -> Result<(), BusError> {
-        let frame = CanId::new(0).and_then(|id| Frame::data(id, &[command, node]));
-        frame.map_or(Ok(()), |frame| self.bus.send(&frame))
+        let Some(frame) = CanId::new(0).and_then(|id| Frame::data(id, &[command, node])) else {
+            return Ok(());
+        };
+        // A node that does as it is commanded does not start again.
+        self.restarts.hear(&frame);
+        self.bus.send(&frame)
     }
 
     /// Waits for the boot-up message of a node; whether it came in time.

@@ -439,6 +439,23 @@ fn a_read_is_repeated_when_a_frame_was_lost_or_broken() {
     );
 }
 
+/// The late answer begins the second transfer, and the answer to that comes in its middle.
+#[test]
+fn an_answer_that_came_too_late_uses_up_no_repetition() {
+    let mut late = None;
+    let becomes = move |at, frame| {
+        if at == 1 {
+            late = Some(frame);
+            return Vec::new();
+        }
+        late.take().into_iter().chain([frame]).collect()
+    };
+    with_dirt(becomes, |client| {
+        assert_eq!(client.read(5, id(0x2002)).unwrap(), b"A lamp of glass");
+        assert_eq!(client.read(5, id(0x2000)).unwrap(), [20, 0]);
+    });
+}
+
 #[test]
 fn a_broken_answer_is_no_end_of_the_node() {
     let becomes = |_, frame: Frame| match frame.bytes() {
@@ -514,4 +531,18 @@ fn a_plan_begins_with_what_the_node_has() {
     assert_eq!(order(&[(0x2000, 2), (0x2001, 4)], &back), [0x2001, 0x2000], "up");
     assert_eq!(order(&back, &back), [0_u16; 0], "nothing to do");
     assert_eq!(order(&[(0x2000, 20), (0x2001, 60)], &back), [0x2001]);
+}
+
+#[test]
+fn a_node_that_obeys_the_client_does_not_start_again() {
+    with_lamps(|_, client| {
+        let heartbeat = EntryId { index: Index(0x1017), sub: SubIndex(0) };
+        client.write(5, heartbeat, &[10, 0]).unwrap();
+        for command in [1, 128] {
+            client.command(command, 5).unwrap();
+            // Nobody starts; heartbeats are heard.
+            assert!(!client.booted(5, Duration::from_millis(50)).unwrap());
+        }
+        assert_eq!(client.restarted(5).unwrap(), None);
+    });
 }

@@ -13,9 +13,10 @@ use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 
 use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs, OneNodeArgs, SkipArgs};
-use super::keep::{Beside, beside, compared, kept_line, parameters_of};
+use super::beside::{Beside, beside, compared};
 use super::outcome::{Outcome, State, worse};
 use super::restore::restored;
+use super::taken::{kept_line, parameters_of};
 use super::{Target, connect, is_meant};
 use crate::exit::{DIFFERS, SUCCESS};
 use crate::output::{forced, keep};

@@ -1,4 +1,4 @@
-//! `odgen node restore`: nodes get the values of parameter files. All are asked and judged before the first is written to.
+//! Nodes get the values of parameter files. All are asked and judged before the first is written to.
 
 use std::collections::BTreeSet;
 
@@ -9,33 +9,16 @@ use od_spec::source::{SourceMap, Span};
 use od_spec::{Assigned, Commissioning, assign_layers, rule_codes};
 
 use super::args::NodeRestoreArgs;
+use super::beside::{Beside, shown_errors, told_differences};
 use super::confirm::{Change, preview};
 use super::doubt::{Presence, Unwritten, sent};
 use super::had::{Had, had, values, words};
 use super::hand::{InHand, pdo_of, tell_unsent};
-use super::keep::{Beside, beside_one, machine_of, shown_errors, told_differences};
 use super::outcome::{Outcome, State, worse};
-use super::{Described, Target, connect, is_meant, on_the_bus};
+use super::{Target, is_meant, on_the_bus};
 use crate::exit::{ERRORS, INTERRUPTED, SUCCESS};
 use crate::interrupt::Interrupt;
 use crate::report::{Report, print, shown};
-
-/// Writes what a file sets and the node has otherwise, and reads all of it back; the same for the files of a directory and the nodes of a
-/// machine.
-pub(super) fn restore(args: &NodeRestoreArgs, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.file.spec, &args.file.node, report)?;
-    if let Some(machine) = machine_of(&described, &args.file) {
-        return machine.restore(args, report);
-    }
-    let beside = beside_one(&described, &args.file, report)?;
-    let mut client = connect(&args.file.node.link, report)?;
-    let mut code = SUCCESS;
-    for mut outcome in restored(&mut client, args, std::slice::from_ref(&beside), report)? {
-        outcome.heed_start(&mut client, report);
-        code = worse(code, outcome.code);
-    }
-    Ok(code)
-}
 
 /// What a node is to get.
 struct Planned<'b, 'a> {
@@ -79,11 +62,11 @@ pub(super) fn restored<'a, B: Bus>(
     for plan in &plans {
         let target = plan.beside.target;
         if interrupt.is_wanted() {
-            outcomes.push(Outcome { target, code: INTERRUPTED, state: State::LeftAlone });
+            outcomes.push(Outcome::untouched(target, INTERRUPTED, State::NotDone));
             continue;
         }
         if let Err(code) = target.has_started(client, report) {
-            outcomes.push(Outcome { target, code, state: State::Started });
+            outcomes.push(Outcome::untouched(target, code, State::Started));
             continue;
         }
         let before = client.writes();
@@ -102,10 +85,10 @@ fn left_alone<'a>(
 ) -> Vec<Outcome<'a>> {
     let outcome = |(beside, plan): (&Beside<'a>, &Result<Planned<'_, 'a>, u8>)| {
         let (code, state) = match plan {
-            Ok(_) => (ERRORS, State::LeftAlone),
+            Ok(_) => (ERRORS, State::NotDone),
             Err(code) => (*code, State::Unfit),
         };
-        Outcome { target: beside.target, code: worse(code, printed), state }
+        Outcome::untouched(beside.target, worse(code, printed), state)
     };
     let outcomes: Vec<Outcome<'a>> = all.iter().zip(plans).map(outcome).collect();
     let unfit: Vec<String> = outcomes
