@@ -57,7 +57,7 @@ pub mod yaml;
 
 pub use ast::Untranslated;
 pub use catalogue::{all_codes, code};
-pub use check::allowed::can_be_allowed;
+pub use check::allowed::{can_be_allowed, is_rule};
 pub use check::codes as rule_codes;
 pub use check::departures::departures;
 pub use check::names::texts_fit_eds::problem as eds_text_problem;

@@ -87,7 +87,7 @@ impl Source<'_> {
             }
         }
         for ModeMeaning { mode, name, about, .. } in &field.modes {
-            cell = cell.line().text(format!("{mode}: {name}"));
+            cell = cell.line().text(format!("{}: {name}", mode.value));
             if !about.is_empty() {
                 cell = cell.text("; ").and(self.text(about));
             }

@@ -318,12 +318,12 @@ impl Members<'_> {
 
     /// What bits mean in single modes of operation.
     fn modes(&self, part: &str, old: &[ModeMeaning], new: &[ModeMeaning]) -> Vec<Change> {
-        let mut modes: Vec<&str> = old.iter().chain(new).map(|one| one.mode.as_str()).collect();
+        let mut modes: Vec<&str> = old.iter().chain(new).map(|one| one.mode.value.as_str()).collect();
         modes.sort_unstable();
         modes.dedup();
         let mut changes = Vec::new();
         for mode in modes {
-            let find = |list: &'_ [ModeMeaning]| list.iter().position(|one| one.mode == mode);
+            let find = |list: &'_ [ModeMeaning]| list.iter().position(|one| one.mode.value == mode);
             let (before, after) = (find(old).map(|at| &old[at]), find(new).map(|at| &new[at]));
             let name = |one: Option<&ModeMeaning>| one.map(|one| one.name.clone());
             let part = format!("{part} in {mode}");

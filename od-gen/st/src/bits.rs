@@ -141,8 +141,8 @@ fn labels(device: &Device<'_>, field: &BitField) -> Vec<(String, String)> {
     for meaning in &field.modes {
         let about = device.text(&meaning.about);
         let about = if about.is_empty() { String::new() } else { format!(": {about}") };
-        let mode = device.phrase(Phrase::InMode, &[&meaning.mode, &meaning.name]);
-        labels.push((format!("{} {}", meaning.mode, meaning.name), format!("{mode}{about}")));
+        let mode = device.phrase(Phrase::InMode, &[&meaning.mode.value, &meaning.name]);
+        labels.push((format!("{} {}", meaning.mode.value, meaning.name), format!("{mode}{about}")));
     }
     labels
 }
@@ -192,7 +192,7 @@ impl Bits<'_> {
             let mut note = vec![device.place_of_bits(field.first, field.last)];
             note.extend(remarks(device, field));
             let modes = field.modes.iter();
-            note.extend(modes.map(|one| device.phrase(Phrase::InMode, &[&one.mode, &one.name])));
+            note.extend(modes.map(|one| device.phrase(Phrase::InMode, &[&one.mode.value, &one.name])));
             Declaration::new(name, of_type.name(), note.join("; "))
         });
         text.structure(&self.type_name, &members.collect::<Vec<_>>());

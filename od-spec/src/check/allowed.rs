@@ -1,4 +1,4 @@
-//! Findings that a specification allows: what a rule refuses and the device has all the same.
+//! Findings that a specification allows: what a rule refuses and the device has all the same, or what is no mistake here.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -52,9 +52,14 @@ enum Covered {
     At(Index),
 }
 
-/// Whether a specification can allow what a code says: that of a rule, and none of reading.
-pub fn can_be_allowed(code: &Code) -> bool {
+/// Whether a code is that of a rule over the model.
+pub fn is_rule(code: &Code) -> bool {
     RULES.iter().any(|rule| rule.code == code)
+}
+
+/// Whether a specification can allow what a code says: that of a rule, or a warning; no error of reading.
+pub fn can_be_allowed(code: &Code) -> bool {
+    is_rule(code) || code.severity == Severity::Warning && codes::ALL.contains(&code)
 }
 
 impl<'a> Allowed<'a> {
@@ -66,10 +71,14 @@ impl<'a> Allowed<'a> {
 
     /// The codes under `allow:`; one that no rule has is reported.
     pub(crate) fn of(spec: &'a Spec, diagnostics: &mut Diagnostics) -> Self {
+        let known = || {
+            let of_rules = RULES.iter().map(|rule| rule.code);
+            of_rules.chain(codes::ALL.iter().copied().filter(|code| can_be_allowed(code)))
+        };
         let mut by_code = BTreeMap::new();
         for allow in &spec.allow {
             let code = &allow.code;
-            if RULES.iter().any(|rule| rule.code.id == code.value) {
+            if known().any(|known| known.id == code.value) {
                 by_code.insert(code.value.as_str(), Allow::of(allow));
                 for object in allow.at.iter().flatten().filter(|object| object.places.is_empty()) {
                     let message =
@@ -81,10 +90,9 @@ impl<'a> Allowed<'a> {
                 }
                 continue;
             }
-            let message = format!("found `{}`, expected the code of a rule", shorten(&code.value));
-            let known = RULES.iter().map(|rule| rule.code.id);
+            let message = format!("found `{}`, expected the code of a rule or of a warning", shorten(&code.value));
             let diagnostic = Diagnostic::new(codes::UNKNOWN_WORD, code.span, message);
-            let meant = diagnostics.suggestions.nearest(&code.value, known);
+            let meant = diagnostics.suggestions.nearest(&code.value, known().map(|code| code.id));
             diagnostics.push(match meant.filter(|_| !code.value.starts_with("OD")) {
                 Some(id) => diagnostic.did_you_mean(id),
                 None => diagnostic
@@ -101,20 +109,30 @@ impl<'a> Allowed<'a> {
         }
         let mut softened = Diagnostics::new();
         for finding in found.iter().cloned() {
-            let allow = self.by_code.get(finding.code.id);
-            softened.push(match allow.and_then(|allow| Some((allow.decl, allow.covers(&finding)?))) {
-                Some((allow, covered)) => {
-                    self.used.insert((allow.code.value.as_str(), covered));
-                    let reason = allow.reason.get("en").unwrap_or_default();
-                    Diagnostic {
-                        severity: Severity::Note,
-                        ..finding.note(format!("`allow:` says: {reason}"))
-                    }
-                }
-                None => finding,
-            });
+            softened.push(self.softened(finding));
         }
         softened
+    }
+
+    /// The same for warnings alone.
+    pub(crate) fn soften_warnings(&mut self, found: &mut Diagnostics) {
+        for finding in found.as_mut_slice() {
+            if finding.severity() == Severity::Warning {
+                *finding = self.softened(finding.clone());
+            }
+        }
+    }
+
+    fn softened(&mut self, finding: Diagnostic) -> Diagnostic {
+        let allow = self.by_code.get(finding.code.id);
+        match allow.and_then(|allow| Some((allow.decl, allow.covers(&finding)?))) {
+            Some((allow, covered)) => {
+                self.used.insert((allow.code.value.as_str(), covered));
+                let reason = allow.reason.get("en").unwrap_or_default();
+                Diagnostic { severity: Severity::Note, ..finding.note(format!("`allow:` says: {reason}")) }
+            }
+            None => finding,
+        }
     }
 
     /// Reports the codes and objects that nothing was found for.

@@ -111,6 +111,8 @@ pub(crate) fn system(
     allowed: &mut Allowed<'_>,
     diagnostics: &mut Diagnostics,
 ) {
+    // Warnings of reading and resolving may be allowed, too; their errors leave nothing to go on with.
+    allowed.soften_warnings(diagnostics);
     for needs in [Needs::Nothing, Needs::Everything] {
         if needs == Needs::Everything && diagnostics.has_errors() {
             return;

@@ -112,16 +112,18 @@ fn check_set(items: &[Node], item: Shape, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports what stands twice in a list. A name with a number, as features with channels have it, is the same with the same number.
+/// Reports what stands twice in a list. A number is the same in any notation; a name with a number, as features with channels have
+/// it, is the same with the same number.
 pub(super) fn named_once(items: &[Node], diagnostics: &mut Diagnostics) {
-    let mut before: BTreeMap<(&str, Option<&str>), Span> = BTreeMap::new();
+    let mut before = BTreeMap::new();
     for node in items {
         let numbered = || {
             let (name, number) = node.entries().first()?;
             Some((Spanned::new(name.value.as_str(), name.span), number.text().map(|text| text.value)))
         };
         let Some((name, number)) = node.text().map(|name| (name, None)).or_else(numbered) else { continue };
-        if let Some(first) = before.get(&(name.value, number)) {
+        let what = (scalar::integer(name.value).map_err(|_| name.value), number);
+        if let Some(first) = before.get(&what) {
             diagnostics.push(
                 Diagnostic::new(
                     codes::NAMED_TWICE,
@@ -132,7 +134,7 @@ pub(super) fn named_once(items: &[Node], diagnostics: &mut Diagnostics) {
                 .help("remove one of the two, or name what was meant"),
             );
         } else {
-            before.insert((name.value, number), name.span);
+            before.insert(what, name.span);
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::Deref;
 
 use super::{DataType, Statement, Text};
-use crate::source::{Span, Spanned};
+use crate::source::Spanned;
 
 /// An enum or a bit field with a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -129,14 +129,12 @@ pub struct BitField {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ModeMeaning {
-    /// The mode.
-    pub mode: String,
+    /// The mode, and where it is named.
+    pub mode: Spanned<String>,
     /// Name of the bits in this mode.
     pub name: String,
     /// Meaning.
     pub about: Text,
-    /// Where the mode is named.
-    pub span: Span,
 }
 
 impl BitField {

@@ -302,7 +302,6 @@ fn bit_errors(
             );
             continue;
         }
-        super::errors::check_distinct(&decl.codes, diagnostics);
         let codes = decl.codes.iter().map(|code| code.map(super::numbers::to_u16)).collect();
         errors.push(BitErrors { bit: first, codes });
     }

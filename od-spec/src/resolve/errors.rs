@@ -9,7 +9,7 @@ use super::varied::Varied;
 use crate::ast::{CodeRange, ErrorDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{Devices, EntryId, ErrorCode, ErrorKind, Text};
-use crate::source::{Span, Spanned};
+use crate::source::Span;
 
 pub(super) fn resolve(
     root: &Spec,
@@ -130,24 +130,6 @@ fn error(
         about: text(words(&decl.about), below.map(|below| words(&below.about))),
         span: decl.codes.span,
     })
-}
-
-/// Checks that a bit reports each error code once.
-pub(super) fn check_distinct(codes: &[Spanned<i128>], diagnostics: &mut Diagnostics) {
-    for (at, code) in codes.iter().enumerate() {
-        if let Some(before) = codes[..at].iter().find(|before| before.value == code.value) {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::DUPLICATE_VALUE,
-                    code.span,
-                    format!("error code {:04X}h stands twice at one bit", code.value),
-                )
-                .label("again here")
-                .with(before.span, "first here")
-                .help("remove one of the two, or correct it"),
-            );
-        }
-    }
 }
 
 /// The kinds of error that are stated; those that cannot be are reported, once for a range.

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use super::errors;
 use super::numbers::to_u16;
 use crate::ast::{BitDecl, BitRange, TypeDecl, ValueDecl, Words};
 use crate::check::codes as rule_codes;
@@ -185,7 +184,6 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
         );
     }
     let highest = (1i128 << (last - first + 1)) - 1;
-    errors::check_distinct(&bit.errors, diagnostics);
     BitField {
         first,
         last,
@@ -203,8 +201,8 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
             .modes
             .iter()
             .filter_map(|bit| {
-                let (mode, name) = (bit.mode.value.clone(), bit.name.as_ref()?.value.clone());
-                Some(ModeMeaning { mode, name, about: words(&bit.about), span: bit.mode.span })
+                let name = bit.name.as_ref()?.value.clone();
+                Some(ModeMeaning { mode: bit.mode.clone(), name, about: words(&bit.about) })
             })
             .collect(),
     }

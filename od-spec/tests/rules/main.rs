@@ -6,11 +6,11 @@ mod words;
 
 use od_spec::diag::{Code, Diagnostics, Language};
 use od_spec::source::{SourceMap, Spanned};
-use od_spec::{NoFiles, all_codes, assign, can_be_allowed, compile};
+use od_spec::{NoFiles, all_codes, assign, compile, is_rule};
 
 /// The codes of all rules.
 fn rules() -> impl Iterator<Item = &'static Code> {
-    all_codes().into_iter().filter(|code| can_be_allowed(code))
+    all_codes().into_iter().filter(|code| is_rule(code))
 }
 
 /// What is said about a specification, and about settings of node `node` of its first device.

@@ -247,7 +247,7 @@ fn check_bits(table: &Table, kind: &TypeKind, masks: Option<u8>) {
             assert!(meaning.contains(&format!("{} = {}", value.value, value.name)), "{meaning}");
         }
         for ModeMeaning { mode, name, .. } in &field.modes {
-            assert!(meaning.contains(&format!("{mode}: {name}")), "{meaning}");
+            assert!(meaning.contains(&format!("{}: {name}", mode.value)), "{meaning}");
         }
         let active = match (field.edge, field.active) {
             (Some(Edge::Rising), _) => "0→1",

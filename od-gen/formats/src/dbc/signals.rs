@@ -166,7 +166,7 @@ fn of_field(
     lines.extend(field.about.get(language).map(str::to_owned));
     for meaning in &field.modes {
         let about = meaning.about.get(language).map(|about| format!(": {about}")).unwrap_or_default();
-        lines.push(format!("mode {}: {}{about}", meaning.mode, meaning.name));
+        lines.push(format!("mode {}: {}{about}", meaning.mode.value, meaning.name));
     }
     signal.comment = lines.join("\n");
     signal

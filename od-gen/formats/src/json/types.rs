@@ -115,7 +115,7 @@ fn bit_view(field: &BitField) -> BitView<'_> {
         modes: field
             .modes
             .iter()
-            .map(|one| json!({"mode": one.mode, "name": one.name, "about": words(&one.about)}))
+            .map(|one| json!({"mode": one.mode.value, "name": one.name, "about": words(&one.about)}))
             .collect(),
     }
 }

@@ -125,7 +125,7 @@ fn bit_field(context: &Context<'_>, field: &BitField) -> Item {
         more.push(Item::new("values", Node::Map(enum_values(context, &field.values))));
     }
     let modes = field.modes.iter().map(|mode| {
-        Item::new(spelled(&mode.mode), named(&mode.name, Vec::new(), &mode.about, context.language()))
+        Item::new(spelled(&mode.mode.value), named(&mode.name, Vec::new(), &mode.about, context.language()))
     });
     let modes: Vec<Item> = modes.collect();
     if !modes.is_empty() {

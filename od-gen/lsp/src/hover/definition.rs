@@ -164,7 +164,7 @@ fn name_of(field: &BitField) -> String {
     if !field.name.is_empty() || field.modes.is_empty() {
         return field.name.clone();
     }
-    let modes = field.modes.iter().map(|mode| format!("{} ({})", mode.name, mode.mode));
+    let modes = field.modes.iter().map(|mode| format!("{} ({})", mode.name, mode.mode.value));
     modes.collect::<Vec<_>>().join(", ")
 }
 

@@ -63,7 +63,7 @@ fn names(subject: &Subject<'_>, findings: &mut Findings) {
         // Modes of the maker's own may have any name.
         if let Some(meant) = nearest(&meaning.mode, known.iter().copied()) {
             let message = format!("there is no mode of operation `{}`", shorten(&meaning.mode));
-            findings.push(Diagnostic::new(CODE, meaning.span, message).did_you_mean(meant));
+            findings.push(Diagnostic::new(CODE, meaning.mode.span, message).did_you_mean(meant));
         }
     }
 }

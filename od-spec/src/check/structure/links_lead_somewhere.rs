@@ -1,4 +1,4 @@
-//! Links lead from an object to others that the device has, to each once.
+//! Links lead from an object to others that the device has.
 
 use crate::check::findings::Findings;
 use crate::check::help::Help;
@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Note,
     title: "a link that leads nowhere else",
     explanation: "The links of an object name others that belong together with it, such as the limits of a value. A link to an object that the device does not have leads nowhere: \
-        whoever follows it searches in vain. One to the object itself, or a second one to the same object, says nothing more; another index was meant. Correct the index, or remove the link. Indices below 1000h are those of data types, which are no objects of a device here; links to \
+        whoever follows it searches in vain. One to the object itself says nothing; another index was meant. Correct the index, or remove the link. Indices below 1000h are those of data types, which are no objects of a device here; links to \
         them are not judged.",
     clause: Some("CiA 306 4.6.4"),
     example: Some(Example::new(
@@ -37,13 +37,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     };
     for object in device.objects.values() {
         let is_lost = |index: Index| !device.objects.contains_key(&index) && !is_data_type(index);
-        for (at, link) in object.links.iter().enumerate() {
+        for link in &object.links {
             let problem = if link.value == object.index {
                 format!("{} is linked to itself", object.index)
             } else if is_lost(link.value) {
                 format!("{} is linked to {}, which {who} does not have", object.index, link.value)
-            } else if object.links[..at].contains(link) {
-                format!("{} is linked to {} twice", object.index, link.value)
             } else {
                 continue;
             };

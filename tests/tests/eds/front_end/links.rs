@@ -80,7 +80,8 @@ fn lists_are_read_as_far_as_they_can_be() {
     let one = |linked: &[u16]| vec![(0x2000, linked.to_vec())];
     // Out of order, and counted wrongly.
     let (found, about) = read("[2000objectlinks]\nObjectLinks=1\n2=0x2000\n1=8193\n");
-    assert_eq!((found, about), (one(&[0x2001, 0x2000]), vec!["EDS302"]));
+    // The second leads to the object itself.
+    assert_eq!((found, about), (one(&[0x2001, 0x2000]), vec!["EDS302", "OD0323"]));
     let (found, about) = read("[2000ObjectLinks]\nObjectLinks=2\n1=2001h\n2=0x2002\n");
     assert_eq!((found, about), (one(&[0x2002]), vec!["EDS304", "OD0323"]));
     // An object that is not described loses its links, and its sub-indices alone make one.
