@@ -142,8 +142,11 @@ impl<'a> Plan<'a> {
         let span = self.device.span;
         let general = [(field.name.clone(), &field.about)].into_iter().filter(|(name, _)| !name.is_empty());
         let has_name = |meaning: &&ModeMeaning| !matches!(meaning.name.as_str(), "reserved" | "unused");
-        let modes =
-            field.modes.iter().filter(has_name).map(|one| (format!("{} {}", one.mode.value, one.name), &one.about));
+        let modes = field
+            .modes
+            .iter()
+            .filter(has_name)
+            .map(|one| (format!("{} {}", one.mode.value, one.name), &one.about));
         let labels = general.chain(modes);
         let planned = labels.map(|(label, about)| {
             let name = self.identifier(Role::Function, &label);

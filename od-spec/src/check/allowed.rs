@@ -90,7 +90,8 @@ impl<'a> Allowed<'a> {
                 }
                 continue;
             }
-            let message = format!("found `{}`, expected the code of a rule or of a warning", shorten(&code.value));
+            let message =
+                format!("found `{}`, expected the code of a rule or of a warning", shorten(&code.value));
             let diagnostic = Diagnostic::new(codes::UNKNOWN_WORD, code.span, message);
             let meant = diagnostics.suggestions.nearest(&code.value, known().map(|code| code.id));
             diagnostics.push(match meant.filter(|_| !code.value.starts_with("OD")) {

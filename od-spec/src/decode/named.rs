@@ -1,5 +1,7 @@
 //! What texts name: tables, figures and sections of the manual, and objects. Whether they exist is looked up later.
 
+use std::sync::LazyLock;
+
 use super::texts;
 use crate::ast::{Named, TextMention};
 use crate::keys::Keys;
@@ -10,6 +12,10 @@ use crate::yaml::{Node, NodeKind};
 
 /// Keys whose texts are about what other issues of the manual print.
 const ABOUT_OTHER_ISSUES: [&str; 4] = ["errata", "history", "revision", "source"];
+
+/// What stands before an object that is meant, in small letters.
+static POINTERS: LazyLock<Vec<&str>> =
+    LazyLock::new(|| ["see", "object", "objects"].into_iter().flat_map(Language::words_of_all).collect());
 
 /// What the texts of a specification name, in the order of its keys.
 pub(super) fn read(root: &Node, keys: &Keys) -> Vec<TextMention> {
@@ -45,5 +51,5 @@ fn in_text(node: &Node, found: &mut Vec<TextMention>) {
 fn is_pointed_at(before: &str) -> bool {
     let before = before.trim_end_matches([' ', '\u{a0}', '(']);
     let word = before.rsplit(|sign: char| !sign.is_alphabetic()).next().unwrap_or_default().to_lowercase();
-    ["see", "object", "objects"].into_iter().any(|key| Language::words_of_all(key).any(|one| one == word))
+    POINTERS.contains(&word.as_str())
 }

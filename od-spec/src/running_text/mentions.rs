@@ -78,7 +78,13 @@ static OTHERS: LazyLock<Vec<&str>> = LazyLock::new(|| Language::words_of_all("ot
 /// The numbers in a text that are not those of another document, in order.
 pub fn mentions(text: &str) -> Vec<Mention<'_>> {
     let mut found = Vec::new();
+    if !text.bytes().any(|sign| sign.is_ascii_digit()) {
+        return found;
+    }
     for (at, space) in text.match_indices([' ', '\u{a0}']) {
+        if !may_be_number(&text[at + space.len()..]) {
+            continue;
+        }
         let Some((noun, kind, count)) = noun_before(text, at) else { continue };
         let Some(first) = number_at(text, at + space.len(), kind) else { continue };
         let mut numbers = vec![first];
@@ -110,6 +116,15 @@ fn noun_before(text: &str, end: usize) -> Option<(usize, Numbered, Count)> {
     }
     let (_, kind, count) = NOUNS.iter().copied().find(|(noun, ..)| *noun == word)?;
     Some((before.len(), kind, count))
+}
+
+/// Whether a number may begin here, as [`number_at`] reads it: most words are none, and need no look at what is before them.
+fn may_be_number(text: &str) -> bool {
+    match text.as_bytes() {
+        [first, second, ..] => first.is_ascii_digit() || first.is_ascii_uppercase() && *second == b'.',
+        [only] => only.is_ascii_digit(),
+        [] => false,
+    }
 }
 
 /// The number that begins at a place: of a section with points, and perhaps with the letter of an appendix.

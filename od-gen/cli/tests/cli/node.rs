@@ -400,9 +400,8 @@ fn a_text_that_no_dcf_holds_is_kept_and_given_back() {
 fn a_node_with_another_serial_number_or_revision_is_left_alone() {
     let with = |number: u32| {
         let allow = if number == 0 { "" } else { "allow: {OD0890: one node}\n" };
-        let serial = format!(
-            "{allow}objects:\n  0x1018: {{from: cia301, record: {{4: {{default: {number}}}}}}}\n"
-        );
+        let serial =
+            format!("{allow}objects:\n  0x1018: {{from: cia301, record: {{4: {{default: {number}}}}}}}\n");
         HEATER.replace("objects:\n", &serial)
     };
     let first = Bus::of("node-serial", "heater.od.yaml", &with(4711));
@@ -449,7 +448,8 @@ fn a_node_has_the_same_major_revision_and_no_lower_minor() {
 /// A stored value outlasts the mistake.
 #[test]
 fn storing_asks_first_who_is_there() {
-    let serial = "allow: {OD0890: one node}\nobjects:\n  0x1018: {from: cia301, record: {4: {default: 4711}}}\n";
+    let serial =
+        "allow: {OD0890: one node}\nobjects:\n  0x1018: {from: cia301, record: {4: {default: 4711}}}\n";
     let bus = Bus::of("node-store", "heater.od.yaml", &HEATER.replace("objects:\n", serial));
     bus.scratch.file("other.od.yaml", HEATER.replace("product: 7", "product: 8"));
     bus.scratch.file(

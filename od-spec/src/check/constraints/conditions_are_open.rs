@@ -93,8 +93,11 @@ fn against<'a>(
     let knowledge = Knowledge::of(view.subject, view.from);
     let own = demanded(constraint)?;
     before.iter().find_map(|(other, other_view)| {
-        let both: Vec<Link<'_>> = own.iter().copied().chain(demanded(other)?).collect();
-        (other_view.from == view.from && knowledge.contradict(&both)).then_some(*other)
+        let demanded = demanded(other)?;
+        // Each can hold alone, so that they stand in each other's way only at a term that both have.
+        let is_apart = other_view.from != view.from || !have_common_term(&own, &demanded);
+        let both: Vec<Link<'_>> = own.iter().copied().chain(demanded).collect();
+        (!is_apart && knowledge.contradict(&both)).then_some(*other)
     })
 }
 
@@ -104,6 +107,15 @@ fn demanded(constraint: &Constraint) -> Option<Vec<Link<'_>>> {
         (None, [comparisons]) => Some(comparisons.iter().flat_map(links).collect()),
         _ => None,
     }
+}
+
+fn have_common_term(links: &[Link<'_>], others: &[Link<'_>]) -> bool {
+    let terms = |(left, _, right)| [left, right];
+    links
+        .iter()
+        .copied()
+        .flat_map(terms)
+        .any(|term| others.iter().copied().flat_map(terms).any(|other| other == term))
 }
 
 /// The conditions under which entries can be written.
