@@ -18,6 +18,7 @@ use super::machine::Machine;
 use super::reach::SERIAL_NUMBER;
 use super::{Described, Target, has_started, on_the_bus, reach};
 use crate::exit::{DIFFERS, ERRORS, SUCCESS};
+use crate::interrupt::Interrupt;
 use crate::output::{forced, keep};
 use crate::report::{Report, print, shown};
 use crate::settings::{ParameterFiles, parameter_files};
@@ -36,8 +37,9 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
         let message = format!("cannot write `{}`: it names no file", args.out.display());
         report.refuse(Diagnostic::without_place(codes::WRITE_FAILED, message).help("write the file's name"))
     })?;
+    let interrupt = Interrupt::noted();
     let mut client = reach(&args.node, target, report)?;
-    let written = parameters_of(&mut client, args, target, described.sources(), report)?;
+    let written = parameters_of(&mut client, args, target, described.sources(), &interrupt, report)?;
     has_started(&mut client, target, report)?;
     let artifact =
         Artifact { path: name.to_owned(), bytes: written.text.into_bytes(), purpose: String::new() };
@@ -58,9 +60,10 @@ pub(super) fn parameters_of<B: Bus>(
     args: &NodeBackupArgs,
     target: Target<'_>,
     sources: &SourceMap,
+    interrupt: &Interrupt,
     report: &Report,
 ) -> Result<ParameterText, u8> {
-    let had = had(client, target, kept(target.device), report)?;
+    let had = had(client, target, kept(target.device), Some(interrupt), report)?;
     let mut node = Commissioning::of_node(target.device, target.id);
     // Nobody has asked the adapter.
     node.bit_rate = args.node.link.bit_rate.unwrap_or(0);
@@ -186,8 +189,9 @@ pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
         return machine.compare(args, report);
     }
     let beside = beside_one(&described, args, report)?;
+    let interrupt = Interrupt::noted();
     let mut client = reach(&args.node, beside.target, report)?;
-    let code = compared(&mut client, &beside, report)?;
+    let code = compared(&mut client, &beside, &interrupt, report)?;
     has_started(&mut client, beside.target, report)?;
     Ok(code)
 }
@@ -215,11 +219,12 @@ pub(super) fn beside_one<'a>(
 pub(super) fn compared<B: Bus>(
     client: &mut Client<B>,
     beside: &Beside<'_>,
+    interrupt: &Interrupt,
     report: &Report,
 ) -> Result<u8, u8> {
     let Beside { target, file, meant, .. } = beside;
     let target = *target;
-    let had = had(client, target, meant.keys().copied(), report)?;
+    let had = had(client, target, meant.keys().copied(), Some(interrupt), report)?;
     let (count, code) = told_differences(target, meant, &had, report);
     let not_in_file = kept(target.device).filter(|id| !meant.contains_key(id)).count();
     let differ = if count == 1 { "differs" } else { "differ" };
