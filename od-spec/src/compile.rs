@@ -180,6 +180,9 @@ fn compile_xdd(
     let name = eds::file_name(file.name());
     let facts = FileFacts { name, encoding: file.encoding(), format: rules.format };
     let view = View::new(&document, root, xdd::is_xdc(name), facts);
+    if !view.is_dcf {
+        xdd::say_values(&view, &mut diagnostics);
+    }
     let mut read = read(&view, file.name(), standard::data_type, &mut diagnostics);
     texts.add_to(&mut read.spec);
     let mut compiled = resolved(rules, read, strictness, diagnostics);

@@ -135,7 +135,6 @@ class Machine:
             # A limit for the size of files ends a write as a full disk does, and needs no disk of its own. It counts 512 bytes.
             whole = ["sh", "-c", f"trap '' XFSZ; ulimit -f {room.of_file // 512}; exec {shlex.join(whole)}"]
         self.relay.fault = fault
-        self.relay.is_idle.clear()
         with open("/dev/full" if room.is_stdout_full else os.devnull, "w", encoding="utf-8") as full:
             out = full if room.is_stdout_full else subprocess.PIPE
             process = subprocess.Popen(whole, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.PIPE, text=True, cwd=folder)

@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -72,7 +73,7 @@ COMMANDS: dict[str, tuple[list[str], At]] = {
     # The fourth value is the mapping of a PDO that is switched off.
     "restore": (["restore", "{plant}", "{new}", "--yes"], At(DOWNLOAD, 4, MAPPED)),
     "write": (["write", "{plant}", "--node", str(NODE), *SETTINGS, "--yes"], At(DOWNLOAD, 3, MAPPED)),
-    "store": (["store", "--node", str(NODE), "--yes"], At(DOWNLOAD, 1, STORE)),
+    "store": (["store", "{plant}", "--node", str(NODE), "--yes"], At(DOWNLOAD, 1, STORE)),
 }
 """What is given to `odgen node`, and the request at which a fault begins."""
 
@@ -472,26 +473,21 @@ def unnoticed(cells: list[Cell], baseline: Baseline) -> list[str]:
 
 # All cells, some at a time.
 
-WORKER: dict[str, Machine | Baseline] = {}
-
-
-def begin(baseline: Baseline) -> None:
-    folder = Path(tempfile.mkdtemp(dir=baseline.folder))
-    WORKER.update(machine=Machine(baseline.odgen, folder), baseline=baseline)
-
-
-def work(name: tuple[str, str]) -> Cell:
-    machine, baseline = WORKER["machine"], WORKER["baseline"]
-    assert isinstance(machine, Machine) and isinstance(baseline, Baseline)
-    observed = observe(machine, baseline, *name)
-    return Cell(*name, observed, judge(*name, baseline, observed))
+def work(baseline: Baseline, names: list[tuple[str, str]]) -> list[Cell]:
+    """Some cells, on a machine of their own."""
+    machine = Machine(baseline.odgen, Path(tempfile.mkdtemp(dir=baseline.folder)))
+    try:
+        return [Cell(*name, observed := observe(machine, baseline, *name), judge(*name, baseline, observed)) for name in names]
+    finally:
+        machine.end()
 
 
 def run(baseline: Baseline, names: list[tuple[str, str]]) -> list[Cell]:
-    # Those in which somebody waits begin first.
+    # Those in which somebody waits are spread over all machines.
     order = sorted(names, key=lambda name: name[1] not in ("node dead", "slow", "request lost", "answer lost"))
-    with multiprocessing.get_context("spawn").Pool(WORKERS, begin, (baseline,)) as pool:
-        cells = pool.map(work, order, chunksize=1)
+    with ProcessPoolExecutor(WORKERS, multiprocessing.get_context("spawn")) as pool:
+        some = pool.map(work, [baseline] * WORKERS, [order[at::WORKERS] for at in range(WORKERS)])
+        cells = [cell for of_one in some for cell in of_one]
     return sorted(cells, key=lambda cell: names.index((cell.command, cell.fault)))
 
 

@@ -189,6 +189,7 @@ class Relay:
         self.adapter = port
         self.fault: Fault | None = None
         self.is_idle = threading.Event()
+        self.is_idle.set()
         self.server = socket.create_server(("127.0.0.1", 0))
         self.address = f"tcp:127.0.0.1:{self.server.getsockname()[1]}"
         threading.Thread(target=self.serve, daemon=True).start()
@@ -196,6 +197,7 @@ class Relay:
     def serve(self) -> None:
         while True:
             host, _ = self.server.accept()
+            self.is_idle.clear()
             with host, socket.create_connection(("127.0.0.1", self.adapter)) as adapter:
                 for one in (host, adapter):
                     one.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

@@ -212,7 +212,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
             let emergencies = &mut self.emergencies;
             self.pdos.handle(frame, dictionary, &mut WithEmergencies { application, emergencies }, now);
         }
-        if !self.state().allows(Service::Sdo) || self.sdo.channel() == NO_CHANNEL {
+        if !self.state().allows(Service::Sdo) {
             return None;
         }
         self.sdo.handle(frame, dictionary, application, now)
@@ -389,7 +389,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         }
         application.restart(dictionary, id, kind);
         self.consumer = Consumer::new();
-        self.sdo.set_channel(channel(dictionary, id).unwrap_or(NO_CHANNEL));
+        self.sdo.set_channel(channel(dictionary, id));
         let boot_up = self.control.boot_up(dictionary, id, now);
         self.nmt.booted();
         application.node_event(dictionary, Event::State(self.state()));
@@ -412,16 +412,13 @@ fn watchable(table: &Table<'_>) -> usize {
     last.map_or(0, |row| table.id(row).sub.into())
 }
 
-/// The channel of an SDO server that has none: NMT commands are no requests.
+/// The channel of an SDO server before the first reset, when no frame is taken.
 const NO_CHANNEL: Channel =
     Channel { request: crate::bus::frame::CanId::ZERO, answer: crate::bus::frame::CanId::ZERO };
 
-/// The first SDO channel; that of the predefined connection set where 1200h does not exist.
-fn channel<'t, D: Dictionary<'t>>(dictionary: &D, id: NodeId) -> Option<Channel> {
-    match dictionary.table().find(0x1200, 1) {
-        Ok(_) => Channel::of_server(dictionary, 0),
-        Err(_) => Some(Channel::predefined(id)),
-    }
+/// The first SDO channel: every node has one, so that of the predefined connection set where 1200h names none.
+fn channel<'t, D: Dictionary<'t>>(dictionary: &D, id: NodeId) -> Channel {
+    Channel::of_server(dictionary, 0).unwrap_or(Channel::predefined(id))
 }
 
 /// Puts every value back to the factory's, but for those that the device keeps by itself ([`Storage::Remanent`]).

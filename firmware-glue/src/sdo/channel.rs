@@ -25,7 +25,7 @@ impl Channel {
     /// A channel of the node's server, as the dictionary has it now: number 0 in 1200h, up to number 127 in 127Fh
     /// (CiA 301 7.5.2.33). `None` if there is no such object, or one of its identifiers is switched off or has 29 bits.
     ///
-    /// A dictionary without 1200h has the [`predefined`](Self::predefined) channel.
+    /// Where it has none at 1200h, the node's first channel is the [`predefined`](Self::predefined) one.
     pub fn of_server<'t>(dictionary: &impl Dictionary<'t>, number: u8) -> Option<Self> {
         let index = 0x1200 + u16::from(number);
         if number > 127 {

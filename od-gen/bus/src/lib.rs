@@ -3,6 +3,7 @@
 
 pub mod client;
 pub mod monitor;
+mod restarts;
 pub mod runtime;
 pub mod slcan;
 #[cfg(target_os = "linux")]

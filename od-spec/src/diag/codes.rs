@@ -209,7 +209,7 @@ codes! {
     ACCESS_FAILED Error "OD0716" "an access to a node that failed":
         "`odgen node` asked a node on a bus to read or write an entry. Either the node refused: the message has its abort code, in numbers and in words. A value may be right by itself and refused in the present state of the device, as while it is locked, or because of what another entry holds. Or it did not answer: it is switched off or stopped, has another node-ID, or the bus has another bit rate. Or it took the value, and has another one when it is read back. What was written before is written; the message says what was not."
     OTHER_DEVICE Error "OD0717" "a node that is another device":
-        "`odgen node` asks a node first what it is: its device type (1000h), vendor (1018h.1), product code (1018h.2) and revision (1018h.3), as far as the specification states them, and its serial number (1018h.4), where the plant or the parameter file does. This node says otherwise. On another device the same indices can mean other things, with other units and limits, so that nothing is read from it or written to it under the names of this one. Name the specification and the device of the node, or the right node-ID; `--any-device` goes on all the same."
+        "`odgen node` asks a node first what it is: its device type (1000h), vendor (1018h.1), product code (1018h.2) and revision (1018h.3), as far as the specification states them, and its serial number (1018h.4), where the plant or the parameter file does. This node says otherwise. A higher minor revision (the lower 16 bits) is compatible by CiA 301 and accepted. On another device the same indices can mean other things, with other units and limits, so that nothing is read from it or written to it under the names of this one. Name the specification and the device of the node, or the right node-ID. `--any-serial` accepts another serial number, as a spare part has it, `--any-revision` another revision; `--any-device` asks nothing."
     NO_TERMINAL Error "OD0718" "something that needs a terminal":
         "`odgen serve --watch` draws on the terminal and takes its keys. Standard input and output have to be that terminal, and no file or pipe; a script comes from a file then, and not from standard input. `odgen serve --log` tells every frame in words without a terminal, and `odgen node monitor` tells what changes on any bus. Commands of `odgen node` that change a node show the changes first and ask at the terminal. Scripts use `--yes`, or `--dry-run` to see the changes only."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
@@ -321,6 +321,12 @@ codes! {
         [Example::xdd(
             "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/><property name=\"CO_disabled\" value=\"true\"/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>",
             "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>",
+        )]
+    XDD_VALUES Warning "XDD209" "values of a node in an XDD":
+        "An XDD describes a type of device: `actualValue` is the value of one node, and belongs into an XDC. In an XDD it is left out of everything that is made from the file."
+        [Example::xdd(
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" defaultValue=\"0\" actualValue=\"5\"/>\n</CANopenObjectList>",
+            "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" defaultValue=\"0\"/>\n</CANopenObjectList>"
         )]
     XDD_LEFT_OUT Note "XDD207" "something that has no place":
         "A dictionary has no place for it, or it can be understood in more than one way: what other programs keep in `property`, modules, templates, and units whose raw values count from an `offset`."

@@ -4,7 +4,8 @@ use roxmltree::Node;
 
 use super::editor::is_property;
 use super::tree::{Tree, is_named};
-use crate::diag::{Diagnostic, Diagnostics, codes};
+use crate::diag::{Diagnostic, Diagnostics, Repeated, codes};
+use crate::eds::view::View;
 
 /// Says, once for each kind, what nobody reads.
 pub(super) fn say(tree: Tree<'_>, diagnostics: &mut Diagnostics) {
@@ -29,4 +30,19 @@ pub(super) fn say(tree: Tree<'_>, diagnostics: &mut Diagnostics) {
                 .help("keep the file for tools that need it; what is made from it does without"),
         );
     }
+}
+
+/// Says that an XDD has values of one node, which belong into an XDC.
+pub(crate) fn say_values(view: &View<'_>, diagnostics: &mut Diagnostics) {
+    let mut found = Repeated::new();
+    for (key, attribute) in [("ParameterValue", "actualValue"), ("Denotation", "denotation")] {
+        for value in view.topics().filter_map(|(_, part)| part.value(key)) {
+            let message = format!("`{attribute}` belongs into an XDC, and is left out");
+            found.add(value.span, [], || {
+                Diagnostic::new(codes::XDD_VALUES, value.span, message)
+                    .help("call the file `.xdc` if it is for one node, otherwise remove the values")
+            });
+        }
+    }
+    found.finish("values", diagnostics);
 }

@@ -27,6 +27,8 @@ mod types;
 
 #[cfg(feature = "xdd")]
 pub(crate) use languages::Texts;
+#[cfg(feature = "xdd")]
+pub(crate) use left_out::say_values;
 
 #[cfg(feature = "xdd")]
 use crate::diag::Diagnostics;

@@ -1,6 +1,5 @@
 //! SDO and NMT, one access after the other.
 
-use std::collections::BTreeSet;
 use std::fmt;
 use std::time::Duration;
 
@@ -10,6 +9,7 @@ use firmware_glue::{AbortCode, NodeId, clock};
 use od_spec::model::{DataType, EntryId};
 
 use super::{Bus, BusError};
+use crate::restarts::{ERROR_CONTROL, Restart, Restarts};
 
 /// No entry of a dictionary is longer; who sends more is not believed.
 const LONGEST: usize = 16 << 20;
@@ -19,8 +19,6 @@ const NAP: Duration = Duration::from_millis(20);
 const QUIET: clock::Duration = clock::Duration::from_millis(20);
 /// A lost frame is no reason to give up; more of them are.
 const RETRIES: u8 = 1;
-/// The identifiers of boot-up messages and heartbeats begin here.
-const BOOT_UP: u16 = 0x700;
 /// So many frames at most are taken from what has come already.
 const LEFT: usize = 1024;
 
@@ -34,8 +32,7 @@ pub struct Client<B> {
     retries: u8,
     /// Writes that were begun.
     writes: usize,
-    /// Nodes that were heard to start.
-    started: BTreeSet<u8>,
+    restarts: Restarts,
 }
 
 /// Why an access failed.
@@ -181,7 +178,7 @@ impl<B: Bus> Client<B> {
             timeout: clock::Duration::from_micros(micros),
             retries: RETRIES,
             writes: 0,
-            started: BTreeSet::new(),
+            restarts: Restarts::default(),
         }
     }
 
@@ -334,29 +331,27 @@ impl<B: Bus> Client<B> {
         }
     }
 
-    /// The next frame that others sent; who starts is noted.
+    /// The next frame that others sent; which node starts is noted.
     fn hear(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
         let heard = self.bus.receive(within)?;
-        let node = heard.filter(|frame| frame.bytes() == Some(&[0])).and_then(|frame| {
-            let node = frame.id().get().checked_sub(BOOT_UP)?;
-            u8::try_from(node).ok().filter(|node| (1..=127).contains(node))
-        });
-        self.started.extend(node);
+        if let Some(frame) = &heard {
+            self.restarts.hear(frame);
+        }
         Ok(heard)
     }
 
-    /// The nodes that have started, by their boot-up messages, since the client is there: what they had and did not store is lost.
+    /// Whether a node has started since the client is there: what it had and did not store is lost.
     ///
     /// # Errors
     /// [`BusError`]: nothing comes any more.
-    pub fn started(&mut self) -> Result<&BTreeSet<u8>, BusError> {
+    pub fn restarted(&mut self, node: u8) -> Result<Option<Restart>, BusError> {
         // What has come already; on a bus where others talk all the time that has an end, too.
         for _ in 0..LEFT {
             if self.hear(Duration::from_millis(1))?.is_none() {
                 break;
             }
         }
-        Ok(&self.started)
+        Ok(self.restarts.of(node))
     }
 
     /// Gives an NMT command to a node, or with node-ID 0 to all. Nodes do not answer.
@@ -374,7 +369,7 @@ impl<B: Bus> Client<B> {
     /// [`BusError`]: nothing comes any more.
     pub fn booted(&mut self, node: u8, within: Duration) -> Result<bool, BusError> {
         let begin = self.bus.now();
-        let of_node = CanId::new(BOOT_UP + u16::from(node));
+        let of_node = CanId::new(ERROR_CONTROL + u16::from(node));
         while u128::from(self.bus.now().saturating_sub(begin)) < within.as_micros() {
             let heard = self.hear(NAP)?;
             if heard.is_some_and(|frame| Some(frame.id()) == of_node && frame.bytes() == Some(&[0])) {

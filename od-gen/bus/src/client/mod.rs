@@ -6,6 +6,7 @@
 mod access;
 mod link;
 mod port;
+mod recognize;
 mod restore;
 mod scan;
 mod serial;
@@ -20,9 +21,11 @@ use firmware_glue::frame::Frame;
 pub use self::access::{AccessError, Client};
 pub use self::link::{OpenError, SlcanBus};
 pub use self::port::{Manner, Port};
+pub use self::recognize::{Contradiction, Fact, Remark, introduced, recognize};
 pub use self::restore::{involved, judged, kept, plan, value};
-pub use self::scan::{Answer, Contradiction, Heard, Identity, Recognized, recognize, scan};
+pub use self::scan::{Answer, Heard, Identity, scan};
 pub use self::serial::Serial;
+pub use crate::restarts::Restart;
 
 /// Where frames go and come from, and what time it is there.
 pub trait Bus {

@@ -54,12 +54,12 @@ pub struct Identity {
 /// So many frames of others are taken between two requests.
 const MEANWHILE: usize = 32;
 
-const DEVICE_TYPE: EntryId = id(0x1000, 0);
+pub(super) const DEVICE_TYPE: EntryId = id(0x1000, 0);
 const VENDOR: EntryId = id(0x1018, 1);
 const PRODUCT: EntryId = id(0x1018, 2);
 const NAME: EntryId = id(0x1008, 0);
-const REVISION: EntryId = id(0x1018, 3);
-const SERIAL: EntryId = id(0x1018, 4);
+pub(super) const REVISION: EntryId = id(0x1018, 3);
+pub(super) const SERIAL: EntryId = id(0x1018, 4);
 /// What tells devices apart.
 const TELLING: [EntryId; 3] = [DEVICE_TYPE, VENDOR, PRODUCT];
 
@@ -93,14 +93,14 @@ impl Identity {
     }
 
     /// The numbers by which a dictionary tells a device from others. Vendor or product 0 says that nobody knows it.
-    fn stated(&self) -> impl Iterator<Item = (EntryId, u32)> {
+    pub(super) fn stated(&self) -> impl Iterator<Item = (EntryId, u32)> {
         TELLING.into_iter().filter_map(|id| {
             let number = self.number(id)?;
             (id == DEVICE_TYPE || number != 0).then_some((id, number))
         })
     }
 
-    fn number(&self, id: EntryId) -> Option<u32> {
+    pub(super) fn number(&self, id: EntryId) -> Option<u32> {
         match id {
             DEVICE_TYPE => self.device_type,
             VENDOR => self.vendor,
@@ -110,63 +110,6 @@ impl Identity {
             _ => None,
         }
     }
-}
-
-/// A number of a node that is another one than was stated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Contradiction {
-    /// Device type, or a number of the identity.
-    pub id: EntryId,
-    /// What the node says.
-    pub told: u32,
-    /// What is stated of it.
-    pub stated: u32,
-}
-
-/// What a node says of itself, beside what is stated of it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Recognized {
-    /// It can be the device; it does not tell, or tells as 0, its revision or serial number, which are stated.
-    Fits {
-        /// Which of the two.
-        untold: Vec<EntryId>,
-    },
-    /// It is another one.
-    Contradicts(Contradiction),
-}
-
-/// Asks a node whether it is the device of a dictionary, with a serial number where one is known: before values are taken for what that
-/// dictionary says they are.
-///
-/// # Errors
-/// [`AccessError`], but for a number that the node refuses to tell.
-pub fn recognize<B: Bus>(
-    client: &mut Client<B>,
-    node: u8,
-    device: &Dictionary,
-    serial: Option<u32>,
-) -> Result<Recognized, AccessError> {
-    let mut stated = Identity::of(device);
-    stated.serial = serial;
-    let single = [REVISION, SERIAL].into_iter();
-    let single = single.filter_map(|id| Some((id, stated.number(id).filter(|number| *number != 0)?)));
-    let mut untold = Vec::new();
-    for (id, number) in stated.stated().chain(single) {
-        let told = match client.read(node, id) {
-            Ok(bytes) => bytes.try_into().map(u32::from_le_bytes).ok(),
-            Err(error) if error.is_of_entry() => None,
-            Err(error) => return Err(error),
-        };
-        match (told, TELLING.contains(&id)) {
-            (None | Some(0), false) => untold.push(id),
-            (Some(told), _) if told != number => {
-                return Ok(Recognized::Contradicts(Contradiction { id, told, stated: number }));
-            }
-            (None | Some(_), _) => {}
-        }
-    }
-    Ok(Recognized::Fits { untold })
 }
 
 /// What was heard at a node-ID.
@@ -236,7 +179,7 @@ fn asked<B: Bus>(
 }
 
 /// What a node says of itself.
-fn identity<B: Bus>(client: &mut Client<B>, node: u8) -> Result<Identity, BusError> {
+pub(super) fn identity<B: Bus>(client: &mut Client<B>, node: u8) -> Result<Identity, BusError> {
     let mut bytes = |id| match client.read(node, id) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(AccessError::Bus(error)) => Err(error),

@@ -124,10 +124,11 @@ fn a_reset_brings_a_boot_up_message() {
 #[test]
 fn a_node_that_starts_while_another_is_talked_to_is_noted() {
     with_lamps(|_, client| {
-        assert!(client.started().unwrap().is_empty());
+        assert_eq!(client.restarted(6).unwrap(), None);
         client.command(129, 6).unwrap();
         client.read(5, id(0x2000)).unwrap();
-        assert_eq!(*client.started().unwrap(), BTreeSet::from([6]));
+        assert_eq!(client.restarted(6).unwrap(), Some(Restart::BootUp));
+        assert_eq!(client.restarted(5).unwrap(), None);
     });
 }
 

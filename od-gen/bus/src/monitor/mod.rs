@@ -12,11 +12,9 @@ use std::fmt::Write as _;
 use od_spec::model::EntryId;
 
 use self::beat::{Beat, Heard, Stated};
+use crate::restarts::{ERROR_CONTROL, Restarts};
 use crate::slcan::CanFrame;
 use crate::trace::{Decoder, Service, Told, What};
-
-/// The identifiers of heartbeats begin here.
-const ERROR_CONTROL: u16 = 0x700;
 
 /// What is told.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -45,6 +43,7 @@ pub struct Monitor<'a> {
     /// What was told of an identifier last; asking for it is something else.
     last: BTreeMap<(u16, Asked), String>,
     nodes: BTreeMap<u8, Watched>,
+    restarts: Restarts,
     frames: u64,
     start: u64,
 }
@@ -62,18 +61,47 @@ struct Watched {
     beat: Beat,
     /// The last emergency since it started, and when.
     emergency: Option<(u64, String)>,
+    learnt: Learnt,
+}
+
+/// What was read from a node.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+enum Learnt {
+    #[default]
+    Nothing,
+    Valid,
+    /// It has started again since.
+    Outdated,
 }
 
 impl<'a> Monitor<'a> {
     /// One that begins at a time.
     pub fn new(decoder: Decoder<'a>, shows: Shows, now: u64) -> Self {
         let nodes = decoder.nodes().iter().map(|node| (node.id, Watched::default())).collect();
-        Self { decoder, shows, last: BTreeMap::new(), nodes, frames: 0, start: now }
+        Self {
+            decoder,
+            shows,
+            last: BTreeMap::new(),
+            nodes,
+            restarts: Restarts::default(),
+            frames: 0,
+            start: now,
+        }
     }
 
     /// Takes note of a value that somebody has read from a node: identifiers and mappings follow.
     pub fn learn(&mut self, node: u8, entry: EntryId, bytes: &[u8]) {
         self.decoder.learn(node, entry, bytes);
+        let learnt = &mut self.nodes.entry(node).or_default().learnt;
+        if *learnt == Learnt::Nothing {
+            *learnt = Learnt::Valid;
+        }
+    }
+
+    /// The nodes that have started again since something was read from them.
+    pub fn outdated(&self) -> impl Iterator<Item = String> {
+        let outdated = self.nodes.iter().filter(|(_, watched)| watched.learnt == Learnt::Outdated);
+        outdated.map(|(node, _)| self.name(*node))
     }
 
     /// Takes what is on the bus; the lines that tell it.
@@ -83,6 +111,12 @@ impl<'a> Monitor<'a> {
         let mut lines = Vec::new();
         let mut is_news = false;
         if let What::Frame(CanFrame::Standard(frame)) = what {
+            if let Some((node, _)) = self.restarts.hear(frame) {
+                let learnt = &mut self.nodes.entry(node).or_default().learnt;
+                if *learnt == Learnt::Valid {
+                    *learnt = Learnt::Outdated;
+                }
+            }
             let id = frame.id().get();
             let node = id.checked_sub(ERROR_CONTROL).and_then(|node| u8::try_from(node).ok());
             if let Some(node) = node.filter(|node| (1..=127).contains(node)) {
@@ -174,6 +208,9 @@ impl<'a> Monitor<'a> {
             let _ = write!(text, "  {}  {}", self.name(*node), watched.beat.summary(now));
             if let Some((at, emergency)) = &watched.emergency {
                 let _ = write!(text, "; last EMCY {} ago: {emergency}", seconds(now.saturating_sub(*at)));
+            }
+            if watched.learnt == Learnt::Outdated {
+                text.push_str("; started again after it was asked");
             }
             text.push('\n');
         }

@@ -44,7 +44,7 @@ impl Bus {
     }
 
     fn run(&self, arguments: &[&str]) -> String {
-        let of_bus = ["--timeout", "200", "--slcan", &self.relay.address];
+        let of_bus = ["--timeout", "500", "--slcan", &self.relay.address];
         let output = odgen(&self.scratch.0, &[&["node"], arguments, &of_bus].concat());
         let (said, failed) = (stdout(&output), stderr(&output));
         format!("$ odgen node {}\n{said}{failed}-> {}\n", arguments.join(" "), code(&output))
@@ -94,6 +94,39 @@ fn an_entry_with_a_malformed_answer_is_left_out_and_named() {
         bus.node("read", &["2004"]),
     ]);
     assert_snapshot!("dirt-malformed", said.concat());
+}
+
+/// A default stands in for an entry only after it was asked for again, and by name.
+#[test]
+fn a_rule_asks_again_before_it_takes_a_default() {
+    const HIGHEST: &str = "t58584B012000";
+    let once = || -> Change {
+        let mut came = 0;
+        Box::new(move |line| {
+            came += usize::from(line.starts_with(HIGHEST));
+            let is_first = came == 1 && line.starts_with(HIGHEST);
+            Some(if is_first { line.replace(HIGHEST, "t5858FF012000") } else { line.to_owned() })
+        })
+    };
+    let write = |name: &str, broken: Change, more: &[&str]| {
+        let bus = Bus::new(name, same(), broken);
+        bus.node("write", &[&["2000=30.0 °C", "--yes"], more].concat())
+    };
+    let said = [
+        write("dirt-rule-once", once(), &[]),
+        write("dirt-rule-single", once(), &["--retries", "0"]),
+        write("dirt-rule-ever", begins(HIGHEST, "t5858FF012000"), &[]),
+    ];
+    assert_snapshot!("dirt-rule", said.concat());
+    let broken = Box::new(|line: &str| {
+        let is_of_pdo = line.starts_with("t5858") && matches!(line.get(9..11), Some("18" | "1A"));
+        Some(if is_of_pdo { format!("t5858FF{}", &line[7..]) } else { line.to_owned() })
+    });
+    let bus = Bus::of("dirt-rule-pdo", crate::node::SENSOR, same(), broken);
+    let said = bus.node("write", &["1017=500", "--dry-run"]);
+    let all = ["1800h.1", "1800h.2", "1A00h", "1A00h.1", "1801h.1", "1801h.2", "1A01h", "1A01h.1"];
+    assert!(all.iter().all(|id| said.contains(id)), "{said}");
+    assert!(said.contains("note: so are ") && said.contains(" more that cannot be read: "), "{said}");
 }
 
 #[test]
@@ -162,15 +195,77 @@ fn a_command_without_an_answer_may_have_come() {
     assert_snapshot!("dirt-store", bus.run(&["store", "--node", "5", "--yes"]));
 }
 
+/// With answers of node 5, other frames come: before the first, the second …
+fn brings(frames: &'static [(usize, &'static str)]) -> Change {
+    let mut came = 0;
+    Box::new(move |line| {
+        came += usize::from(line.starts_with("t585"));
+        let is_answer = line.starts_with("t585");
+        let brought = frames.iter().filter(|(at, _)| is_answer && *at == came);
+        let mut lines: Vec<&str> = brought.map(|(_, frame)| *frame).collect();
+        lines.push(line);
+        Some(lines.join("\r"))
+    })
+}
+
+const OPERATIONAL: &str = "t705105";
+const PRE_OPERATIONAL: &str = "t70517F";
+const BOOT_UP: &str = "t705100";
+
+/// What a reset takes away comes back in no answer; its boot-up message may be lost.
 #[test]
-fn each_node_of_a_machine_is_told_with_its_state() {
-    // The first node answers until it is told to take the first value.
-    let mut is_gone = false;
-    let goes = Box::new(move |line: &str| {
-        is_gone |= line.starts_with("t60582B002000");
-        (!(is_gone && line.starts_with("t605"))).then(|| line.to_owned())
-    });
-    let scratch = Scratch::new("dirt-machine");
+fn a_node_that_starts_again_in_the_middle_is_told() {
+    let file = "od-parameters: 1\nparameters: {wanted temperature: 40.0 °C, place: at the window}\n";
+    let said = |name: &str, frames: &'static [(usize, &'static str)], command: &str, arguments: &[&str]| {
+        let bus = Bus::new(&format!("dirt-start-{name}"), same(), brings(frames));
+        bus.scratch.file("kept.yaml", file);
+        let said = bus.node(command, arguments);
+        assert!(!bus.scratch.0.join("none.yaml").exists() || said.contains("-> 0"));
+        said
+    };
+    let backup = ["--out", "none.yaml"];
+    let fallen = &[(2, OPERATIONAL), (5, PRE_OPERATIONAL)];
+    let told = [
+        said("1", &[(5, BOOT_UP)], "backup", &backup),
+        said("2", fallen, "backup", &backup),
+        said("3", fallen, "compare", &["kept.yaml"]),
+        said("4", fallen, "restore", &["kept.yaml", "--yes"]),
+        said("5", fallen, "write", &["2000=30.0 °C", "--yes"]),
+        said("9", &[(6, OPERATIONAL), (7, PRE_OPERATIONAL)], "write", &["2000=30.0 °C", "--yes"]),
+        // Another master commands it, and to itself it says the same as before.
+        said("6", &[(2, OPERATIONAL), (3, "t00028005"), (5, PRE_OPERATIONAL)], "backup", &backup),
+        said("7", &[(2, PRE_OPERATIONAL), (5, PRE_OPERATIONAL), (6, OPERATIONAL)], "backup", &backup),
+        // It is another node.
+        said("8", &[(2, "t706105"), (5, "t70617F")], "backup", &backup),
+    ];
+    assert_snapshot!("dirt-start", told.concat());
+    let bus = Bus::new("dirt-start-store", same(), brings(&[(2, BOOT_UP)]));
+    let stored = bus.run(&["store", "--node", "5", "--yes"]);
+    assert!(stored.contains("started again in the middle") && stored.ends_with("-> 1\n"), "{stored}");
+}
+
+#[test]
+fn a_monitor_tells_who_starts_again_after_it_was_asked() {
+    let monitor = |name: &str, frames: &'static [(usize, &'static str)]| {
+        let bus = Bus::of(&format!("dirt-monitor-{name}"), crate::node::SENSOR, same(), brings(frames));
+        bus.node("monitor", &["--ask", "--for", "0", "--only", "heartbeat"])
+    };
+    for (name, frames, is_told) in [
+        ("first", &[(1, BOOT_UP)][..], false),
+        ("started", &[(3, BOOT_UP)], true),
+        ("fallen", &[(3, OPERATIONAL), (4, PRE_OPERATIONAL)], true),
+        ("commanded", &[(2, OPERATIONAL), (3, "t00028000"), (4, PRE_OPERATIONAL)], false),
+    ] {
+        let said = monitor(name, frames);
+        assert_eq!(said.contains("; started again after it was asked\n"), is_told, "{name}: {said}");
+        assert_eq!(said.contains("error[OD0716]: sensor (node 5) started again"), is_told, "{name}: {said}");
+        assert!(said.ends_with(if is_told { "-> 1\n" } else { "-> 0\n" }), "{name}: {said}");
+    }
+}
+
+/// A bus with heaters as nodes 5 and 6, which have a file each.
+fn house(name: &str, to_nodes: Change, from_nodes: Change) -> Bus {
+    let scratch = Scratch::new(name);
     scratch.file("heater.od.yaml", HEATER);
     let plant = "\
 od-plant: 1
@@ -182,7 +277,7 @@ sites: {North: {type: flat, machines: {1: {}}}}
 ";
     scratch.file("house.yaml", plant);
     let served = Served::start(&scratch, &["heater.od.yaml", "--node", "5", "--node", "6"], Stdio::null());
-    let relay = Relay::new(served.address(), goes, same());
+    let relay = Relay::new(served.address(), to_nodes, from_nodes);
     let bus = Bus { _served: served, relay, scratch };
     fs::create_dir(bus.scratch.0.join("kept")).unwrap();
     for (name, node) in [("attic", 4), ("bath", 5), ("hall", 6)] {
@@ -191,6 +286,34 @@ sites: {North: {type: flat, machines: {1: {}}}}
             format!("od-parameters: 1\ndevice: heater\nnode: {node}\nparameters: {{wanted temperature: 30.0 °C, place: roof}}\n"),
         );
     }
+    bus
+}
+
+/// What was judged is what it had before.
+#[test]
+fn a_node_that_starts_again_before_its_turn_is_not_written_to() {
+    let mut is_brought = false;
+    let brings = Box::new(move |line: &str| {
+        let first = line.starts_with(TAKEN) && !std::mem::replace(&mut is_brought, line.starts_with(TAKEN));
+        Some(if first { format!("t706100\r{line}") } else { line.to_owned() })
+    });
+    let bus = house("dirt-turn", same(), brings);
+    let said = bus.run(&["restore", "house.yaml", "kept", "--yes", "--skip", "4"]);
+    assert!(said.contains("  bath heater (node 5)  restored\n"), "{said}");
+    assert!(said.contains("  hall heater (node 6)  started again in the middle\n"), "{said}");
+    let has = bus.run(&["read", "heater.od.yaml", "--node", "6", "2000"]);
+    assert!(has.contains("= 40.0 °C") && said.ends_with("-> 1\n"), "{said}{has}");
+}
+
+#[test]
+fn each_node_of_a_machine_is_told_with_its_state() {
+    // The first node answers until it is told to take the first value.
+    let mut is_gone = false;
+    let goes = Box::new(move |line: &str| {
+        is_gone |= line.starts_with("t60582B002000");
+        (!(is_gone && line.starts_with("t605"))).then(|| line.to_owned())
+    });
+    let bus = house("dirt-machine", goes, same());
     let said = [
         // A node that is not there: nothing is sent to the others.
         bus.run(&["restore", "house.yaml", "kept", "--yes"]),
@@ -286,6 +409,17 @@ fn an_interrupt_while_values_are_read_is_reported() {
         assert!(stderr(&output).contains("heater (node 5): interrupted before all was read"));
         assert!(!bus.scratch.0.join("kept.yaml").exists());
     }
+}
+
+/// That a node stores takes its time: its answer is waited for.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_while_a_node_stores_lets_it_answer() {
+    let command = CtrlC::new();
+    let bus = Bus::new("dirt-interrupt-store", command.at(|line| line.starts_with("t60582310")), same());
+    let output = command.run(&bus, &["store", "--node", "5", "--yes"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stdout(&output).ends_with("node 5 has stored its parameters\n"));
 }
 
 /// The mapping of a PDO is lost on its way, while the PDO is switched off.

@@ -50,7 +50,7 @@ impl House {
     }
 
     fn unasked(&self, arguments: &[&str]) -> String {
-        let address = ["--timeout", "100", "--slcan", self.served.address()];
+        let address = ["--timeout", "500", "--slcan", self.served.address()];
         let output = odgen(&self.scratch.0, &[&["node"], arguments, &address].concat());
         let (said, failed) = (stdout(&output), stderr(&output));
         format!("$ odgen node {}\n{said}{failed}-> {}\n", arguments.join(" "), code(&output))

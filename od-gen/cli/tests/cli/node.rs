@@ -414,7 +414,60 @@ fn a_node_with_another_serial_number_or_revision_is_left_alone() {
         said.push(bus.node("restore", &["kept.yaml"]));
     }
     said.push(second.node("compare", &["kept.yaml", "--any-device"]));
-    second.scratch.file("newer.od.yaml", HEATER.replace("0x00010002", "0x00020001"));
-    said.push(second.run(&["read", "newer.od.yaml", "--node", "5", "2004"]));
+    // A spare part: all but the serial number is still compared.
+    said.push(second.node("restore", &["kept.yaml", "--any-serial"]));
+    second.scratch.file("other.od.yaml", HEATER.replace("product: 7", "product: 8"));
+    let of_other = ["other.od.yaml", "--node", "5", "kept.yaml", "--any-serial", "--any-revision"];
+    said.push(second.run(&[&["restore"], &of_other[..]].concat()));
     assert_snapshot!("node-serial", said.concat());
+}
+
+/// CiA 301, 1018h.3: with another major revision (upper 16 bits) a device behaves otherwise; a higher minor one adds something.
+#[test]
+fn a_node_has_the_same_major_revision_and_no_lower_minor() {
+    let bus = Bus::new("node-revision");
+    let read = |revision: &str, more: &[&'static str]| {
+        bus.scratch.file("revision.od.yaml", HEATER.replace("0x00010002", revision));
+        bus.run(&[&["read", "revision.od.yaml", "--node", "5", "2004"], more].concat())
+    };
+    let said = [
+        read("0x00010002", &[]),
+        read("0x00010001", &[]),
+        read("0x00010003", &[]),
+        read("0x00020001", &[]),
+        read("0x00000002", &[]),
+        read("0x00020001", &["--any-serial"]),
+        read("0x00020001", &["--any-revision"]),
+        read("0x00000000", &[]),
+    ];
+    assert_snapshot!("node-revision", said.concat());
+}
+
+/// A stored value outlasts the mistake.
+#[test]
+fn storing_asks_first_who_is_there() {
+    let serial = "objects:\n  0x1018: {from: cia301, record: {4: {default: 4711}}}\n";
+    let bus = Bus::of("node-store", "heater.od.yaml", &HEATER.replace("objects:\n", serial));
+    bus.scratch.file("other.od.yaml", HEATER.replace("product: 7", "product: 8"));
+    bus.scratch.file(
+        "plant.yaml",
+        "od-plant: 1\ntitle: House\ndevices: {heater: heater.od.yaml}\n\
+         types: {flat: {bit-rate: 125, positions: {bath: {heater: 5}}}}\n\
+         sites: {North: {type: flat, machines: {1: {positions: {bath: {heater: {serial: 4712}}}}}}}\n",
+    );
+    let said = [
+        bus.run(&["store", "heater.od.yaml", "--node", "5"]),
+        bus.run(&["load-defaults", "heater.od.yaml", "--node", "5"]),
+        bus.run(&["store", "other.od.yaml", "--node", "5"]),
+        bus.run(&["load-defaults", "other.od.yaml", "--node", "5"]),
+        bus.run(&["store", "other.od.yaml", "--node", "5", "--any-device"]),
+        bus.run(&["store", "plant.yaml", "--node", "5"]),
+        bus.run(&["store", "plant.yaml", "--any-serial"]),
+        bus.run(&["store", "heater.od.yaml"]),
+        bus.run(&["store"]),
+        // Nobody has said what it is to be: it is shown.
+        bus.as_it_is(&["store", "--node", "5", "--dry-run"]),
+        bus.run(&["store", "--node", "5", "--any-device"]),
+    ];
+    assert_snapshot!("node-store", said.concat());
 }

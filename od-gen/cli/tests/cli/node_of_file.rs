@@ -205,3 +205,22 @@ fn values_in_an_eds_are_left_out_and_reported_once() {
     assert!(wrong.contains("`ParameterValue` belongs to a DCF, and is left out; 5 more settings"), "{wrong}");
     assert!(text(&scratch, "pump-5.dbc").contains("SG_ status"));
 }
+
+/// The lists of compact storage are values too: they make the same node as a section for each entry.
+#[test]
+fn a_mapping_in_compact_form_is_whole() {
+    let scratch = Scratch::new("node-of-file-compact");
+    let start = PUMP.find("[1A00]").unwrap();
+    let end = start + PUMP[start..].find("[1A01]").unwrap();
+    let compact = "[1A00]\nParameterName=TPDO 1 mapping\nObjectType=9\nDataType=7\nAccessType=rw\nCompactSubObj=1\n\n\
+        [1A00Value]\nNrOfEntries=1\n1=0x20020010\n\n";
+    let compact = PUMP[..start].to_owned() + compact + &PUMP[end..];
+    let [of_sections, of_lists] = [("sections.dcf", PUMP), ("compact.dcf", &compact)].map(|(name, dcf)| {
+        scratch.file(name, dcf);
+        let (code, _, wrong) = run(&scratch, &["dbc", name, "--out", "node.dbc"]);
+        assert_eq!(code, 0, "{wrong}");
+        text(&scratch, "node.dbc").replace("sections", "compact")
+    });
+    assert!(of_sections.contains("_5_TPDO1: 2 "), "{of_sections}");
+    assert_eq!(of_lists, of_sections);
+}

@@ -76,4 +76,5 @@ pub(crate) const PROVOKED: &[Provocation] = &[
     Provocation { code: "XDD206", arguments: FAULTY },
     Provocation { code: "XDD207", arguments: FAULTY },
     Provocation { code: "XDD208", arguments: FAULTY },
+    Provocation { code: "XDD209", arguments: FAULTY },
 ];

@@ -527,6 +527,10 @@ const CONTRADICTIONS: &str = "[DeviceInfo]\nVendorNumber=7\nProductName=Scale\nB
     [1003]\nParameterName=errors\nObjectType=8\nSubNumber=2\n\
     [1003sub0]\nParameterName=number\nDataType=5\nAccessType=ro\nDefaultValue=8\n\
     [1003sub1]\nParameterName=error\nDataType=7\nAccessType=ro\n\
+    [1200]\nParameterName=SDO\nObjectType=9\nSubNumber=3\n\
+    [1200sub0]\nParameterName=number\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+    [1200sub1]\nParameterName=requests\nDataType=7\nAccessType=rw\nDefaultValue=0x80000000\n\
+    [1200sub2]\nParameterName=answers\nDataType=7\nAccessType=rw\nDefaultValue=0x80000000\n\
     [1800]\nParameterName=TPDO\nObjectType=9\nSubNumber=3\n\
     [1800sub0]\nParameterName=number\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
     [1800sub1]\nParameterName=COB-ID\nDataType=7\nAccessType=rw\nDefaultValue=$NODEID+0x180\n\
@@ -557,6 +561,8 @@ fn a_file_that_contradicts_itself_is_served_as_it_stands() {
     let mut ask = |request: &str, answer: &str| {
         served.ask(&format!("t6058{request}\r"), &format!("z\rt5858{answer}\r"));
     };
+    // Every node has the first SDO channel, also where 1200h says that it is off.
+    ask("4000120100000000", "4300120100000080");
     // No error has occurred yet.
     ask("4003100000000000", "4F03100000000000");
     ask("40001A0000000000", "4F001A0002000000");

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::model::{
-    self, AnyError, Author, Dictionary, DynamicChannel, Entry, Further, Index, KeyValue, Mapped, Object, Pdo,
-    PdoTarget, Real, Value,
+    self, AnyError, Author, Dictionary, DynamicChannel, EditorNotes, Entry, Further, Index, KeyValue, Mapped,
+    Object, Pdo, PdoTarget, Real, Value,
 };
 use od_spec::wording::{Notation, Wording};
 use serde::{Serialize, Serializer};
@@ -178,9 +178,32 @@ struct ObjectView<'a> {
     since: Option<&'a str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     links: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    canopennode: Option<EditorView<'a>>,
     warning: Words<'a>,
     about: Words<'a>,
     entries: Entries<'a>,
+}
+
+/// What the stack CANopenNode adds to an object.
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+struct EditorView<'a> {
+    group: Option<&'a str>,
+    count: Option<&'a str>,
+    srdo: BTreeMap<u8, &'static str>,
+    requests_tpdos: bool,
+}
+
+impl<'a> EditorView<'a> {
+    fn new(notes: &'a EditorNotes) -> Self {
+        Self {
+            group: notes.storage_group.as_deref(),
+            count: notes.count_label.as_deref(),
+            srdo: notes.srdos.iter().map(|(sub, mapping)| (sub.0, WORDING.mapping(*mapping))).collect(),
+            requests_tpdos: notes.requests_tpdos,
+        }
+    }
 }
 
 fn object_view(object: &Object) -> ObjectView<'_> {
@@ -196,6 +219,7 @@ fn object_view(object: &Object) -> ObjectView<'_> {
         category: object.category.map(model::Category::word),
         since: object.since.as_deref(),
         links: object.linked().map(index).collect(),
+        canopennode: object.editor.as_deref().filter(|notes| !notes.is_empty()).map(EditorView::new),
         warning: words(&object.warning),
         about: words(&object.about),
         entries: Entries(object),

@@ -47,11 +47,20 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
 fn found(subject: &Subject<'_>) -> Vec<Diagnostic> {
     let mut findings = Vec::new();
     let mut by_name = ByName::new();
+    let mut shared: BTreeMap<Cow<'_, str>, Repeated> = BTreeMap::new();
     for object in subject.device.objects.values() {
         if let Some(before) = by_name.insert(in_ascii(object.label()), object) {
-            findings.push(same_name(subject, before, object));
+            let found = same_name(subject, before, object);
+            // Most EDS name all PDOs alike; in a specification each of them has to be mended.
+            if subject.system.source == SystemSource::Eds {
+                let shared = shared.entry(in_ascii(object.label())).or_insert_with(Repeated::new);
+                shared.add(object.span, [], || found);
+            } else {
+                findings.push(found);
+            }
         }
     }
+    findings.extend(shared.into_values().filter_map(|found| found.into_diagnostic("objects")));
     for name in DataType::ALL.map(DataType::name) {
         if let Some(object) = by_name.get(name).filter(|object| object.label() == name) {
             let message = format!("`{name}` is the name of a data type");

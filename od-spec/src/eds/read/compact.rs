@@ -86,6 +86,12 @@ pub(super) fn object(
     }
     elements.extend(explicit.into_values());
     // How many entries a PDO maps, and how many errors there were, is written: it is no constant of the compact form.
+    // A node whose mapping is listed maps the whole list.
+    if let (Role::PdoMapping, Some(node), true) =
+        (Role::of(index), context.node.as_deref_mut(), !values.is_empty() && !part.subs.contains_key(&0))
+    {
+        node.values.push((id, made(count.to_string(), place)));
+    }
     let sub0 = if matches!(Role::of(index), Role::PdoMapping | Role::ErrorHistory) {
         let access = common.access.map_or(Access::Rw, |access| access.value.access);
         entry::made_up("NrOfObjects", DataType::Unsigned8, access, place)

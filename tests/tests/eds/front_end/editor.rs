@@ -1,6 +1,7 @@
 //! What CANopenEditor writes into an EDS beside the standard: comments with a key, among the keys of an object.
 
 use od_formats::eds::write_eds;
+use od_formats::json::dump;
 use od_import::import;
 use od_spec::eds::{Document, Owner};
 use od_spec::model::{Index, Storage, SubIndex};
@@ -53,6 +54,27 @@ fn comments_of_the_editor_are_read() {
     // What is taken out is no longer said.
     let taken_out = LAMP.replace("[2000]\n", ";[2001]\n;StorageLocation=PERSIST_APP\n\n[2000]\n");
     assert_eq!(kept(&taken_out), KEPT);
+}
+
+#[test]
+fn the_dump_has_them() {
+    let (read, _) = compiled("lamp.eds", LAMP);
+    let dump: serde_json::Value = serde_json::from_slice(&dump(&read.system.unwrap(), &[])).unwrap();
+    let notes: Vec<String> = dump["devices"][0]["objects"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|object| !object["canopennode"].is_null())
+        .map(|object| format!("{} {}", object["index"], object["canopennode"]))
+        .collect();
+    assert_eq!(
+        notes,
+        [
+            r#""0x1017" {"count":"HB_PROD","group":"PERSIST_COMM","requests-tpdos":false,"srdo":{}}"#,
+            r#""0x2000" {"count":null,"group":"PERSIST_MFR","requests-tpdos":true,"srdo":{"1":"receive"}}"#,
+            r#""0x2001" {"count":null,"group":"PERSIST_APP","requests-tpdos":false,"srdo":{}}"#,
+        ]
+    );
 }
 
 #[test]

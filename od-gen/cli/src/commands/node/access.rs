@@ -133,7 +133,10 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
     }
     let question = format!("write {} of {}", values(changes.len()), target.name());
     args.confirm.ask(&preview(target, &changes), &question, report)?;
-    send(&mut client, target, &meant, report)
+    target.has_started(&mut client, report)?;
+    let code = send(&mut client, target, &meant, report).unwrap_or_else(|code| code);
+    let started = target.has_started(&mut client, report);
+    Ok(started.map_or_else(|failed| code.max(failed), |()| code))
 }
 
 /// What is said of a write that is a command of its own.

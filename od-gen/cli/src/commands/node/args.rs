@@ -54,7 +54,7 @@ impl NodeCommand {
             Self::Monitor(args) => args.link.messages.format,
             Self::Scan(args) => args.link.messages.format,
             Self::Nmt(args) => args.link.messages.format,
-            Self::Store(args) | Self::LoadDefaults(args) => args.link.messages.format,
+            Self::Store(args) | Self::LoadDefaults(args) => args.node.link.messages.format,
         }
     }
 }
@@ -90,7 +90,7 @@ pub(crate) struct LinkArgs {
 #[derive(Debug, Args)]
 pub(crate) struct OneNodeArgs {
     /// Key of the device [default: the only one]
-    #[arg(long, value_name = "KEY")]
+    #[arg(long, value_name = "KEY", requires = "spec")]
     pub device: Option<String>,
 
     /// Node-ID, 1 to 127 [default: of a DCF or a parameter file its own]
@@ -98,15 +98,23 @@ pub(crate) struct OneNodeArgs {
     pub node: Option<String>,
 
     /// Where SPEC is a plant file: the machine, by name or number, whose nodes are meant [default: the only one]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "spec")]
     pub machine: Option<String>,
 
     /// The site of the machine [default: that of the only machine with this name]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", requires = "spec")]
     pub site: Option<String>,
 
-    /// Go on with a node that says by its device type, vendor, product, revision or serial number that it is another one
-    #[arg(long)]
+    /// Go on with a node that has another serial number, such as a spare part; everything else has to fit
+    #[arg(long, requires = "spec")]
+    pub any_serial: bool,
+
+    /// Go on with a node of another major or a lower minor revision; a higher minor one is compatible
+    #[arg(long, requires = "spec")]
+    pub any_revision: bool,
+
+    /// Go on with any node, without asking for its device type, vendor, product, revision and serial number
+    #[arg(long, requires = "spec")]
     pub any_device: bool,
 
     #[command(flatten)]
@@ -332,9 +340,12 @@ pub(crate) enum NmtName {
 
 #[derive(Debug, Args)]
 pub(crate) struct NodeGroupArgs {
-    /// Node-ID, 1 to 127
-    #[arg(long, value_name = "ID")]
-    pub node: String,
+    /// Specification, EDS, DCF, XDD or XDC of the node's device, or a plant file: whether the node is this one is asked first [default: what
+    /// the node says of itself is shown]
+    pub spec: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub node: OneNodeArgs,
 
     /// Which parameters: 1 all, 2 communication, 3 application, from 4 on the manufacturer's
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=127))]
@@ -342,7 +353,4 @@ pub(crate) struct NodeGroupArgs {
 
     #[command(flatten)]
     pub confirm: ConfirmArgs,
-
-    #[command(flatten)]
-    pub link: LinkArgs,
 }

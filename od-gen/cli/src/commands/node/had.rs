@@ -20,7 +20,7 @@ pub(super) struct Had {
     pub(super) untold: Vec<(EntryId, String)>,
 }
 
-/// So many entries that cannot be read are named one by one.
+/// So many entries that cannot be read are named with the reason, each on a line.
 const NAMED: usize = 4;
 
 impl Had {
@@ -50,8 +50,13 @@ impl Had {
                 "{mark}a rule looks at {name}, which cannot be read ({why}): it is taken to have its default"
             ));
         }
-        if untold.len() > NAMED {
-            report.note(&format!("{mark}so are {} more entries that cannot be read", untold.len() - NAMED));
+        let more: Vec<String> = untold.iter().skip(NAMED).map(|(id, _)| id.to_string()).collect();
+        if !more.is_empty() {
+            report.note(&format!(
+                "{mark}so are {} more that cannot be read: {}",
+                more.len(),
+                more.join(", ")
+            ));
         }
     }
 }

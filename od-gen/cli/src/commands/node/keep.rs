@@ -16,7 +16,7 @@ use super::args::{NodeBackupArgs, NodeFileArgs};
 use super::had::{Had, had, values, words};
 use super::machine::Machine;
 use super::reach::SERIAL_NUMBER;
-use super::{Described, Target, has_started, on_the_bus, reach};
+use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{DIFFERS, ERRORS, SUCCESS};
 use crate::interrupt::Interrupt;
 use crate::output::{forced, keep};
@@ -40,7 +40,7 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
     let interrupt = Interrupt::noted();
     let mut client = reach(&args.node, target, report)?;
     let written = parameters_of(&mut client, args, target, described.sources(), &interrupt, report)?;
-    has_started(&mut client, target, report)?;
+    target.has_started(&mut client, report)?;
     let artifact =
         Artifact { path: name.to_owned(), bytes: written.text.into_bytes(), purpose: String::new() };
     let directory = args.out.parent().unwrap_or(Path::new(""));
@@ -192,7 +192,7 @@ pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
     let interrupt = Interrupt::noted();
     let mut client = reach(&args.node, beside.target, report)?;
     let code = compared(&mut client, &beside, &interrupt, report)?;
-    has_started(&mut client, beside.target, report)?;
+    beside.target.has_started(&mut client, report)?;
     Ok(code)
 }
 

@@ -16,7 +16,7 @@ use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs, OneNodeArgs, Sk
 use super::keep::{Beside, beside, compared, kept_line, parameters_of};
 use super::outcome::{Outcome, State, worse};
 use super::restore::restored;
-use super::{Target, connect, has_started, is_meant};
+use super::{Target, connect, is_meant};
 use crate::exit::{DIFFERS, INTERRUPTED, SUCCESS};
 use crate::interrupt::Interrupt;
 use crate::output::{forced, keep};
@@ -124,7 +124,7 @@ impl Machine {
             }
         }
         for target in self.chosen(&args.node, &args.skip, report)?.into_iter().map(Node::target) {
-            if let Err(failed) = has_started(&mut client, target, report) {
+            if let Err(failed) = target.has_started(&mut client, report) {
                 code = worse(code, failed);
             }
         }

@@ -13,6 +13,7 @@ mod network;
 mod outcome;
 mod reach;
 mod restore;
+mod sign;
 
 use std::cell::OnceCell;
 use std::path::Path;
@@ -43,8 +44,8 @@ pub(crate) fn run(args: &NodeArgs, directory: &Path, report: &Report) -> u8 {
         NodeCommand::Monitor(args) => monitor::monitor(args, directory, report),
         NodeCommand::Scan(args) => network::scan(args, report),
         NodeCommand::Nmt(args) => network::nmt(args, report),
-        NodeCommand::Store(args) => network::store(args, report),
-        NodeCommand::LoadDefaults(args) => network::load_defaults(args, report),
+        NodeCommand::Store(args) => sign::store(args, report),
+        NodeCommand::LoadDefaults(args) => sign::load_defaults(args, report),
     };
     done.unwrap_or_else(|code| code)
 }
@@ -114,12 +115,7 @@ impl Described {
             Some(files) => files.device(system, key, report)?,
             None => report.device_or_only(system, key)?,
         };
-        let id = used.node_id(stated).ok_or_else(|| {
-            report.refuse(
-                Diagnostic::without_place(codes::BAD_NODE_ID, "no node-ID is given")
-                    .help("add `--node ID`, 1 to 127"),
-            )
-        })?;
+        let id = used.node_id(stated).ok_or_else(|| report.refuse(no_node_id()))?;
         let device = match &used.node {
             Some(of_file) => {
                 configured.get_or_init(|| report.moved(of_file, Some(id), sources).configured(device))
@@ -155,11 +151,21 @@ impl<'a> Target<'a> {
         }
     }
 
+    /// The exit code, after a message, where it has started since the client is there.
+    fn has_started<B: Bus>(self, client: &mut Client<B>, report: &Report) -> Result<(), u8> {
+        has_started(client, self.id, &self.name(), report)
+    }
+
     /// What is said about an access that failed.
     fn failed(self, what: &str, id: EntryId, error: &AccessError) -> Diagnostic {
         let message = format!("{}: cannot {what} {}: {error}", self.name(), self.words().entry(id));
         helped(Diagnostic::without_place(codes::ACCESS_FAILED, message), error)
     }
+}
+
+/// What is said where it is not known which node is meant.
+fn no_node_id() -> Diagnostic {
+    Diagnostic::without_place(codes::BAD_NODE_ID, "no node-ID is given").help("add `--node ID`, 1 to 127")
 }
 
 /// A message with what can be done about the failure.

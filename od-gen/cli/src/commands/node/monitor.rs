@@ -9,6 +9,7 @@ use od_bus::client::{Bus, BusError, Client};
 use od_bus::monitor::{Detail, Monitor, Shows};
 use od_bus::slcan::CanFrame;
 use od_bus::trace::{Decoder, Node, What};
+use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{Dictionary, EntryId, Index, SubIndex};
 use od_spec::visible::printable;
 
@@ -68,13 +69,13 @@ pub(super) fn monitor(args: &NodeMonitorArgs, directory: &Path, report: &Report)
             // It refused a question, which nobody waits for any more.
             Ok(None) | Err(BusError::Refused) => {}
             Err(error) => {
-                watching.end()?;
+                watching.end(report)?;
                 return Err(report.refuse(broken(&error)));
             }
         }
         watching.look()?;
     }
-    watching.end()
+    watching.end(report)
 }
 
 /// What is watched, and since when.
@@ -105,10 +106,17 @@ impl Watching<'_> {
         tell(&lines)
     }
 
-    /// Tells what was seen of each node.
-    fn end(&self) -> Result<u8, u8> {
+    /// Tells what was seen of each node, and of which of them the answers do not count any more.
+    fn end(&self, report: &Report) -> Result<u8, u8> {
         let summary = self.monitor.summary(self.now());
-        tell(&[summary.trim_end().to_owned()]).map(|()| SUCCESS)
+        tell(&[summary.trim_end().to_owned()])?;
+        let outdated: Vec<String> = self.monitor.outdated().collect();
+        if outdated.is_empty() {
+            return Ok(SUCCESS);
+        }
+        let message = format!("{} started again after it was asked", outdated.join(", "));
+        let help = "give the command again: identifiers and mappings that the node had not stored are lost";
+        Err(report.refuse(Diagnostic::without_place(codes::ACCESS_FAILED, message).help(help)))
     }
 
     /// Reads from a node which identifiers it uses and what its PDOs carry; one that is silent once is not asked the rest.

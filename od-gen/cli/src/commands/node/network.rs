@@ -1,14 +1,13 @@
-//! `odgen node scan`, `nmt`, `store` and `load-defaults`: what needs no dictionary.
+//! `odgen node scan` and `nmt`: what needs no dictionary.
 
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use od_bus::client::{AccessError, Answer, BusError, Heard, Identity};
+use od_bus::client::{Answer, BusError, Heard, Identity};
 use od_formats::nmt;
 use od_spec::diag::{Diagnostic, codes};
-use od_spec::model::{EntryId, Index, SubIndex};
 
-use super::args::{NmtName, NodeGroupArgs, NodeNmtArgs, NodeScanArgs};
+use super::args::{NmtName, NodeNmtArgs, NodeScanArgs};
 use super::connect;
 use crate::exit::ERRORS;
 use crate::report::{Report, node_id, print, shown};
@@ -16,9 +15,6 @@ use crate::specs;
 
 /// A node starts within this time.
 const START: Duration = Duration::from_secs(5);
-
-/// What is said of a command whose answer was lost or broken.
-const PERHAPS: &str = "the command may have come all the same";
 
 /// What is said where nothing goes over the bus.
 pub(super) fn broken(error: &BusError) -> Diagnostic {
@@ -76,6 +72,23 @@ fn described(heard: &Heard, known: &[(String, Identity)]) -> String {
             return format!("node {}  {what}{state}\n", heard.node);
         }
     };
+    let mut parts = numbers(identity);
+    parts.extend(state);
+    let mut text = format!("node {}  {}\n", heard.node, parts.join(", "));
+    let mut fits = known.iter().filter(|(_, known)| identity.fits(known)).peekable();
+    if fits.peek().is_none() && !known.is_empty() {
+        text.push_str("    none of the specifications fits\n");
+    }
+    for (device, known) in fits {
+        let is_other = known.revision.is_some() && known.revision != identity.revision;
+        let remark = if is_other { ", of another revision" } else { "" };
+        let _ = writeln!(text, "    can be {device}{remark}");
+    }
+    text
+}
+
+/// `device type 0x00000000`, `vendor 0x00001234`: what a node says of itself.
+pub(super) fn numbers(identity: &Identity) -> Vec<String> {
     let Identity { device_type, vendor, product, revision, serial, name, .. } = identity;
     let of = [
         ("device type", device_type),
@@ -84,23 +97,9 @@ fn described(heard: &Heard, known: &[(String, Identity)]) -> String {
         ("revision", revision),
         ("serial number", serial),
     ];
-    let mut parts: Vec<String> = of
-        .iter()
-        .filter_map(|(what, number)| number.map(|number| format!("{what} 0x{number:08X}")))
-        .collect();
-    parts.extend(name.as_ref().map(|name| format!("name \"{name}\"")));
-    parts.extend(state);
-    let mut text = format!("node {}  {}\n", heard.node, parts.join(", "));
-    let mut fits = known.iter().filter(|(_, known)| identity.fits(known)).peekable();
-    if fits.peek().is_none() && !known.is_empty() {
-        text.push_str("    none of the specifications fits\n");
-    }
-    for (device, identity) in fits {
-        let is_other = identity.revision.is_some() && identity.revision != *revision;
-        let remark = if is_other { ", of another revision" } else { "" };
-        let _ = writeln!(text, "    can be {device}{remark}");
-    }
-    text
+    let numbers =
+        of.iter().filter_map(|(what, number)| number.map(|number| format!("{what} 0x{number:08X}")));
+    numbers.chain(name.as_ref().map(|name| format!("name \"{name}\""))).collect()
 }
 
 /// Sends a command; after a reset, waits for the node to be there again.
@@ -131,50 +130,4 @@ pub(super) fn nmt(args: &NodeNmtArgs, report: &Report) -> Result<u8, u8> {
     Err(report.refuse(
         Diagnostic::without_place(codes::ACCESS_FAILED, message).help("check node-ID, bit rate and power"),
     ))
-}
-
-pub(super) fn store(args: &NodeGroupArgs, report: &Report) -> Result<u8, u8> {
-    let done = format!("node {} has stored its parameters", args.node.trim());
-    sign(args, 0x1010, *b"save", "store its parameters", &done, report)
-}
-
-pub(super) fn load_defaults(args: &NodeGroupArgs, report: &Report) -> Result<u8, u8> {
-    let done = format!(
-        "node {0} takes its defaults with the next reset: `odgen node nmt reset-node --node {0}`",
-        args.node.trim()
-    );
-    sign(args, 0x1011, *b"load", "load its defaults", &done, report)
-}
-
-/// Writes a signature, which makes a node do something with a group of its parameters.
-fn sign(
-    args: &NodeGroupArgs,
-    index: u16,
-    signature: [u8; 4],
-    what: &str,
-    done: &str,
-    report: &Report,
-) -> Result<u8, u8> {
-    let node = node_id(&args.node).map_err(|diagnostic| report.refuse(diagnostic))?;
-    let id = EntryId { index: Index(index), sub: SubIndex(args.group) };
-    let mut client = connect(&args.link, report)?;
-    args.confirm.ask(
-        &format!("node {node} is told to {what} ({id})\n"),
-        &format!("let node {node} {what}"),
-        report,
-    )?;
-    match client.write(node, id, &signature) {
-        Ok(()) => Ok(print(&format!("{done}\n"))),
-        Err(error) => {
-            let message = format!("node {node} does not {what} ({id}): {error}");
-            let diagnostic = Diagnostic::without_place(codes::ACCESS_FAILED, message);
-            Err(report.refuse(match error {
-                AccessError::Silent => diagnostic
-                    .note(PERHAPS)
-                    .help("check node-ID, bit rate and power; storing may take long: `--timeout MS`"),
-                error if error.is_of_entry() => diagnostic,
-                _ => diagnostic.note(PERHAPS),
-            }))
-        }
-    }
 }

@@ -2,7 +2,7 @@
 
 use od_bus::client::{Bus, Client};
 
-use super::{Target, has_started};
+use super::Target;
 use crate::exit::{DIFFERS, SUCCESS};
 use crate::report::Report;
 
@@ -46,7 +46,7 @@ impl<'a> Outcome<'a> {
     /// A node that was done with first may have started again while others were.
     pub(super) fn heed_start<B: Bus>(&mut self, client: &mut Client<B>, report: &Report) {
         let is_told = matches!(self.state, State::Started | State::Unfit);
-        if let (false, Err(failed)) = (is_told, has_started(client, self.target, report)) {
+        if !is_told && let Err(failed) = self.target.has_started(client, report) {
             self.code = worse(self.code, failed);
             self.state = State::Started;
         }

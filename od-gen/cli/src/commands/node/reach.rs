@@ -4,7 +4,10 @@ use std::net::{TcpStream, ToSocketAddrs as _};
 use std::path::Path;
 use std::time::Duration;
 
-use od_bus::client::{Bus, Client, Contradiction, Manner, OpenError, Port, Recognized, SlcanBus, recognize};
+use od_bus::client::{
+    AccessError, Bus, Client, Contradiction, Fact, Manner, OpenError, Port, Remark, Restart, SlcanBus,
+    recognize,
+};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{EntryId, Index, SubIndex};
 
@@ -40,51 +43,97 @@ pub(super) fn is_meant<B: Bus>(
     if args.any_device {
         return Ok(());
     }
-    let found = recognize(client, target.id, target.device, target.serial).map_err(|error| {
+    let remarks = recognize(client, target.id, target.device, target.serial).map_err(|error| {
         let node = target.position.map_or_else(|| format!("node {}", target.id), |_| target.name());
-        let message = format!("cannot ask {node} what it is: {error}");
-        report.refuse(helped(Diagnostic::without_place(codes::ACCESS_FAILED, message), &error))
+        report.refuse(not_asked(&node, &error))
     })?;
-    match found {
-        Recognized::Fits { untold } => {
-            for id in untold {
-                report.note(&format!(
-                    "{} does not tell {}: whether it is the one that is meant is not known",
-                    target.name(),
-                    target.words().entry(id)
-                ));
-            }
-            Ok(())
-        }
-        Recognized::Contradicts(Contradiction { id, told, stated, .. }) => {
-            let entry = target.words().entry(id);
-            let (is, whose) = if id == SERIAL_NUMBER {
-                ("another", "stated for it")
-            } else {
-                ("no", "in the specification")
-            };
-            let message = format!(
-                "node {} is {is} `{}`: {entry} is 0x{told:08X} there, 0x{stated:08X} {whose}",
-                target.id, target.device.key
-            );
-            Err(report.refuse(Diagnostic::without_place(codes::OTHER_DEVICE, message).help(
-                "check node-ID, device and specification; `odgen node scan SPEC…` tells who is on the bus, `--any-device` goes on all the same",
-            )))
+    let mut meant = Ok(());
+    for remark in remarks {
+        match remark {
+            Remark::Untold(id) => report.note(&format!(
+                "{} does not tell {}: whether it is the one that is meant is not known",
+                target.name(),
+                target.words().entry(id)
+            )),
+            Remark::Newer(one) => report.note(&format!(
+                "{} has a newer revision, which is compatible: {}",
+                target.name(),
+                differs(target, &one)
+            )),
+            Remark::Contradicts(one) => match consent(args, one.fact) {
+                Some(option) => {
+                    report.note(&format!(
+                        "accepted with `{option}`: {}: {}",
+                        target.name(),
+                        differs(target, &one)
+                    ));
+                }
+                None => meant = Err(report.refuse(contradiction(target, &one))),
+            },
         }
     }
+    meant
+}
+
+/// The option by which the user goes on with a node that is another one in this.
+fn consent(args: &OneNodeArgs, fact: Fact) -> Option<&'static str> {
+    match fact {
+        Fact::Device => None,
+        Fact::Revision => args.any_revision.then_some("--any-revision"),
+        Fact::Serial => args.any_serial.then_some("--any-serial"),
+    }
+}
+
+/// `1018h.4 Identity object: Serial number is 0x00001268 there, 0x00001267 stated for it`.
+fn differs(target: Target<'_>, one: &Contradiction) -> String {
+    let whose = match one.fact {
+        Fact::Device | Fact::Revision => "in the specification",
+        Fact::Serial => "stated for it",
+    };
+    let entry = target.words().entry(one.id);
+    format!("{entry} is 0x{:08X} there, 0x{:08X} {whose}", one.told, one.stated)
+}
+
+/// What is said of a node that is another one.
+fn contradiction(target: Target<'_>, one: &Contradiction) -> Diagnostic {
+    let (is, help) = match one.fact {
+        Fact::Device => (
+            "no",
+            "check node-ID, device and specification; `odgen node scan SPEC…` tells who is on the bus, `--any-device` goes on all the same",
+        ),
+        Fact::Revision => (
+            "another",
+            "name a specification with the same upper 16 bits and no higher lower ones, or go on with `--any-revision`",
+        ),
+        Fact::Serial => (
+            "another",
+            "check node-ID and wiring; a spare part has a number of its own: correct it in the plant, or go on with `--any-serial`",
+        ),
+    };
+    let device = &target.device.key;
+    let message = format!("node {} is {is} `{device}`: {}", target.id, differs(target, one));
+    Diagnostic::without_place(codes::OTHER_DEVICE, message).help(help)
+}
+
+/// What is said of a node that does not say what it is.
+pub(super) fn not_asked(node: &str, error: &AccessError) -> Diagnostic {
+    let message = format!("cannot ask {node} what it is: {error}");
+    helped(Diagnostic::without_place(codes::ACCESS_FAILED, message), error)
 }
 
 /// The exit code, after a message, where a node has started since the client is there: what it had may be half from before.
 pub(super) fn has_started<B: Bus>(
     client: &mut Client<B>,
-    target: Target<'_>,
+    node: u8,
+    name: &str,
     report: &Report,
 ) -> Result<(), u8> {
-    let started = client.started().map_err(|error| report.refuse(broken(&error)))?;
-    if !started.contains(&target.id) {
-        return Ok(());
-    }
-    let message = format!("{} started again in the middle", target.name());
+    let how = match client.restarted(node).map_err(|error| report.refuse(broken(&error)))? {
+        None => return Ok(()),
+        Some(Restart::BootUp) => "",
+        Some(Restart::FellBack) => ": its heartbeat fell back to pre-operational, and no command was heard",
+    };
+    let message = format!("{name} started again in the middle{how}");
     let help = "find out why, and repeat the command: what the node had not stored is lost";
     Err(report.refuse(Diagnostic::without_place(codes::ACCESS_FAILED, message).help(help)))
 }

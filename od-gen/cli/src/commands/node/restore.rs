@@ -15,7 +15,7 @@ use super::had::{Had, had, values, words};
 use super::hand::{InHand, pdo_of};
 use super::keep::{Beside, beside_one, machine_of, shown_errors, told_differences};
 use super::outcome::{Outcome, State, worse};
-use super::{Described, Target, connect, has_started, is_meant, on_the_bus};
+use super::{Described, Target, connect, is_meant, on_the_bus};
 use crate::exit::{ERRORS, INTERRUPTED, SUCCESS};
 use crate::interrupt::Interrupt;
 use crate::report::{Report, print, shown};
@@ -60,7 +60,7 @@ pub(super) fn restored<'a, B: Bus>(
     // One that starts again while others are asked has other values than those that were judged.
     for plan in &mut plans {
         if let Ok(Planned { beside, .. }) = plan
-            && let Err(code) = has_started(client, beside.target, report)
+            && let Err(code) = beside.target.has_started(client, report)
         {
             *plan = Err(code);
         }
@@ -82,7 +82,7 @@ pub(super) fn restored<'a, B: Bus>(
             outcomes.push(Outcome { target, code: INTERRUPTED, state: State::LeftAlone });
             continue;
         }
-        if let Err(code) = has_started(client, target, report) {
+        if let Err(code) = target.has_started(client, report) {
             outcomes.push(Outcome { target, code, state: State::Started });
             continue;
         }
