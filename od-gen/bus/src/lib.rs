@@ -3,6 +3,7 @@
 
 pub mod client;
 pub mod monitor;
+pub mod program;
 mod restarts;
 pub mod runtime;
 pub mod slcan;

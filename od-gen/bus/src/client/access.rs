@@ -1,10 +1,12 @@
 //! SDO and NMT, one access after the other.
 
+mod load;
+
 use std::fmt;
 use std::time::Duration;
 
 use firmware_glue::frame::{CanId, Frame};
-use firmware_glue::sdo::{Channel, Failure, SdoClient, Sink, Step};
+use firmware_glue::sdo::{Channel, Failure, SdoClient, Sink, Source, Step};
 use firmware_glue::{AbortCode, NodeId, clock};
 use od_spec::model::{DataType, EntryId};
 
@@ -155,7 +157,7 @@ impl<S: Sink> Transfer for firmware_glue::sdo::SdoRead<S> {
     }
 }
 
-impl<S: firmware_glue::sdo::Source> Transfer for firmware_glue::sdo::SdoWrite<S> {
+impl<S: Source> Transfer for firmware_glue::sdo::SdoWrite<S> {
     fn handle(&mut self, frame: &Frame, now: clock::Instant) -> Step {
         self.handle(frame, now)
     }
@@ -172,14 +174,7 @@ impl<S: firmware_glue::sdo::Source> Transfer for firmware_glue::sdo::SdoWrite<S>
 impl<B: Bus> Client<B> {
     /// A client on a bus, which waits so long for an answer, and repeats a read once.
     pub fn new(bus: B, timeout: Duration) -> Self {
-        let micros = u64::try_from(timeout.as_micros()).unwrap_or(u64::MAX);
-        Self {
-            bus,
-            timeout: clock::Duration::from_micros(micros),
-            retries: RETRIES,
-            writes: 0,
-            restarts: Restarts::default(),
-        }
+        Self { bus, timeout: micros(timeout), retries: RETRIES, writes: 0, restarts: Restarts::default() }
     }
 
     /// The same, which repeats a read so often when a frame was lost or broken.
@@ -234,16 +229,22 @@ impl<B: Bus> Client<B> {
     fn read_whole(&mut self, node: u8, id: EntryId) -> Result<(Vec<u8>, Option<Frame>), AccessError> {
         let client = self.sdo(node)?;
         let mut retries = self.retries;
+        // Answers that may still come, too late: for the next request they are wrong.
+        let mut late = 0_u8;
         loop {
             let now = self.now();
             let (mut reading, request) = client.start_read(of_bus(id), Collected::default(), now);
             self.bus.send(&request)?;
             match self.finish(client.channel, &mut reading) {
                 Ok(last) => return Ok((reading.into_sink().0, last)),
+                Err(AccessError::Wrong(_)) if late > 0 => late -= 1,
                 Err(error) if retries == 0 || error.is_of_entry() || matches!(error, AccessError::Bus(_)) => {
                     return Err(error);
                 }
-                Err(_) => retries -= 1,
+                Err(error) => {
+                    retries -= 1;
+                    late += u8::from(matches!(error, AccessError::Silent));
+                }
             }
         }
     }
@@ -253,8 +254,13 @@ impl<B: Bus> Client<B> {
     /// # Errors
     /// [`AccessError`]: refused by the node it has its old value; otherwise nobody knows which.
     pub fn write(&mut self, node: u8, id: EntryId, bytes: &[u8]) -> Result<(), AccessError> {
-        let (client, now) = (self.sdo(node)?, self.now());
-        let begun = client.start_write(of_bus(id), bytes, now);
+        let client = self.sdo(node)?;
+        self.give(client, id, bytes)
+    }
+
+    /// Writes an entry as a client does it, once.
+    fn give(&mut self, client: SdoClient, id: EntryId, source: impl Source) -> Result<(), AccessError> {
+        let begun = client.start_write(of_bus(id), source, self.now());
         let (mut writing, request) = begun.map_err(AccessError::Wrong)?;
         self.writes += 1;
         self.bus.send(&request)?;
@@ -281,8 +287,9 @@ impl<B: Bus> Client<B> {
         channel: Channel,
         transfer: &mut impl Transfer,
     ) -> Result<Option<Frame>, AccessError> {
+        let mut nap = NAP;
         loop {
-            let heard = self.hear(NAP)?;
+            let heard = self.hear(nap)?;
             let now = self.now();
             let answer = heard.filter(|frame| frame.id() == channel.answer);
             if let Some(bytes) = answer.and_then(|frame| frame.bytes().map(<[u8]>::len))
@@ -301,6 +308,8 @@ impl<B: Bus> Client<B> {
             }
             // Other nodes may talk all the time.
             let step = transfer.poll(self.now());
+            // The segments of a block follow each other without an answer.
+            nap = if step.send.is_some() { Duration::ZERO } else { NAP };
             if self.follow(step)? {
                 return Ok(None);
             }
@@ -383,6 +392,10 @@ impl<B: Bus> Client<B> {
 /// Whether an answer holds four bytes and does not say how many of them are the value (CiA 301: e = 1, s = 0).
 fn is_without_size(answer: &Frame) -> bool {
     answer.bytes().and_then(<[u8]>::first).is_some_and(|command| command & 0b1110_0011 == 0b0100_0010)
+}
+
+fn micros(time: Duration) -> clock::Duration {
+    clock::Duration::from_micros(u64::try_from(time.as_micros()).unwrap_or(u64::MAX))
 }
 
 const fn of_bus(id: EntryId) -> firmware_glue::EntryId {

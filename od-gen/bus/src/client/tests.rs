@@ -1,8 +1,9 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use firmware_glue::AbortCode;
-use firmware_glue::frame::Frame;
+use firmware_glue::frame::{CanId, Frame};
 use od_spec::diag::Diagnostics;
 use od_spec::model::{DataType, EntryId, Index, SubIndex, System, Value};
 use od_spec::source::SourceMap;
@@ -33,9 +34,22 @@ const fn id(index: u16) -> EntryId {
     EntryId { index: Index(index), sub: SubIndex(0) }
 }
 
+/// A device that takes two programs.
+const PUMP: &str = "
+od-spec: 1
+title: Pump
+uses: [cia301, cia302]
+devices:
+  pump: {name: Pump, bit-rates: [125], features: [{program download: 2}, program identification, flash status]}
+";
+
 fn lamp() -> System {
+    compiled(LAMP)
+}
+
+fn compiled(specification: &str) -> System {
     let mut sources = SourceMap::new();
-    let root = sources.add("lamp.od.yaml", LAMP);
+    let root = sources.add("device.od.yaml", specification);
     let compiled = compile(&mut sources, root, &mut NoFiles);
     compiled.system.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
 }
@@ -69,8 +83,12 @@ impl Bus for Virtual<'_> {
 
 /// Does something with lamps as nodes 5 and 6.
 fn with_lamps(test: impl FnOnce(&System, &mut Client<Virtual<'_>>)) {
-    let system = lamp();
-    let device = runtime::device(&system, &system.devices[0], &mut Diagnostics::new()).unwrap();
+    with_nodes(&lamp(), test);
+}
+
+/// Does something with two devices as nodes 5 and 6.
+fn with_nodes(system: &System, test: impl FnOnce(&System, &mut Client<Virtual<'_>>)) {
+    let device = runtime::device(system, &system.devices[0], &mut Diagnostics::new()).unwrap();
     let lists = device.lists();
     let table = lists.table().unwrap();
     let node = |id| VirtualNode::new(id, LiveDictionary::new(&device, &table, id).unwrap()).unwrap();
@@ -78,7 +96,7 @@ fn with_lamps(test: impl FnOnce(&System, &mut Client<Virtual<'_>>)) {
     // The nodes start.
     drop(bus.poll(0));
     let mut client = Client::new(Virtual { bus, heard: VecDeque::new(), now: 0 }, Duration::from_millis(500));
-    test(&system, &mut client);
+    test(system, &mut client);
 }
 
 #[test]
@@ -110,6 +128,140 @@ fn refusals_and_silence_are_told_apart() {
         assert!(confused.into_iter().all(|code| !AccessError::Refused(code).is_of_entry()));
         assert!(AccessError::Refused(AbortCode::OUT_OF_MEMORY).is_of_entry());
     });
+}
+
+/// Program 2 of a node: what is written to it, commands, and what the node says of it.
+struct Program<'c, 't>(&'c mut Client<Virtual<'t>>);
+
+impl Program<'_, '_> {
+    const fn id(index: u16) -> EntryId {
+        EntryId { index: Index(index), sub: SubIndex(2) }
+    }
+
+    fn command(&mut self, code: u8) -> Option<AbortCode> {
+        refusal(self.0.write(5, Self::id(0x1F51), &[code]))
+    }
+
+    fn load(&mut self, data: &[u8], told: impl FnMut(usize) -> ControlFlow<()>) -> Result<(), AccessError> {
+        self.0.load(5, Self::id(0x1F50), data, Duration::from_secs(1), told)
+    }
+
+    /// 1F51h, 1F56h and 1F57h.
+    fn says(&mut self) -> [u32; 3] {
+        [0x1F51, 0x1F56, 0x1F57].map(|index| {
+            let bytes = self.0.read(5, Self::id(index)).unwrap();
+            bytes.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte))
+        })
+    }
+}
+
+/// The code of an access that the node refuses.
+fn refusal(access: Result<(), AccessError>) -> Option<AbortCode> {
+    match access {
+        Ok(()) => None,
+        Err(AccessError::Refused(code)) => Some(code),
+        Err(other) => panic!("{other}"),
+    }
+}
+
+#[test]
+fn a_program_is_loaded_in_the_order_of_cia_302() {
+    with_nodes(&compiled(PUMP), |_, client| {
+        let mut program = Program(client);
+        let (refused, goes_on) = (Some(AbortCode::DEVICE_STATE), |_| ControlFlow::Continue(()));
+        assert_eq!(program.says(), [1, 1, 0]);
+        // It runs.
+        assert_eq!(program.command(3), refused);
+        assert_eq!(refusal(program.load(&[1; 100], goes_on)), refused);
+        assert_eq!((program.command(0), program.says()), (None, [0, 1, 0]));
+        // It was not deleted.
+        assert_eq!(refusal(program.load(&[1; 100], goes_on)), refused);
+        assert_eq!((program.command(3), program.says()), (None, [3, 0, 2]));
+        // There is none.
+        assert_eq!([1, 2].map(|code| program.command(code)), [refused, refused]);
+        let data: Vec<u8> = (0..=255).cycle().take(3001).collect();
+        let mut most = 0;
+        let told = |sent| {
+            most = most.max(sent);
+            ControlFlow::Continue(())
+        };
+        program.load(&data, told).unwrap();
+        assert_eq!(most, data.len());
+        let [state, identification, flash] = program.says();
+        assert_eq!((state, flash), (0, 0));
+        assert_ne!(identification, 0);
+        assert_eq!(program.0.read(5, Program::id(0x1F50)).unwrap(), data);
+        assert_eq!((program.command(1), program.says()), (None, [1, identification, 0]));
+        assert_eq!((program.command(2), program.says()), (None, [1, identification, 0]));
+        // Its memory outlasts a reset, with which it starts.
+        assert_eq!((program.command(0), program.says()), (None, [0, identification, 0]));
+        program.0.command(129, 5).unwrap();
+        assert!(program.0.booted(5, Duration::from_secs(1)).unwrap());
+        assert_eq!(program.says(), [1, identification, 0]);
+        // Commands are for a node that is pre-operational, and there are four of them.
+        program.0.command(1, 5).unwrap();
+        assert_eq!(program.command(0), refused);
+        program.0.command(128, 5).unwrap();
+        assert_eq!(program.command(4), Some(AbortCode::INVALID_VALUE));
+    });
+}
+
+#[test]
+fn a_transfer_that_is_ended_leaves_no_program() {
+    with_nodes(&compiled(PUMP), |_, client| {
+        let mut program = Program(client);
+        assert_eq!([0, 3].map(|code| program.command(code)), [None, None]);
+        let ends = |sent| if sent > 1000 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+        let ended = program.load(&[7; 5000], ends).unwrap_err();
+        assert!(matches!(ended, AccessError::Wrong(AbortCode::GENERAL)), "{ended}");
+        assert_eq!((program.says(), program.command(1)), ([3, 0, 2], Some(AbortCode::DEVICE_STATE)));
+        program.load(&[7; 5000], |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(program.command(1), None);
+    });
+}
+
+/// A bus whose nodes refuse transfers in blocks.
+struct WithoutBlocks<'t>(Virtual<'t>);
+
+impl Bus for WithoutBlocks<'_> {
+    fn send(&mut self, frame: &Frame) -> Result<(), BusError> {
+        if let Some([command, low, high, sub, ..]) = frame.bytes()
+            && command & 0xE0 == 0xC0
+        {
+            let abort = [0x80, *low, *high, *sub, 1, 0, 4, 5];
+            self.0.heard.push_back(Frame::full(CanId::new(0x585).unwrap(), abort));
+            return Ok(());
+        }
+        self.0.send(frame)
+    }
+
+    fn receive(&mut self, within: Duration) -> Result<Option<Frame>, BusError> {
+        self.0.receive(within)
+    }
+
+    fn now(&self) -> u64 {
+        self.0.now()
+    }
+}
+
+#[test]
+fn a_node_without_blocks_gets_segments() {
+    let system = compiled(PUMP);
+    let device = runtime::device(&system, &system.devices[0], &mut Diagnostics::new()).unwrap();
+    let lists = device.lists();
+    let table = lists.table().unwrap();
+    let node = VirtualNode::new(5, LiveDictionary::new(&device, &table, 5).unwrap()).unwrap();
+    let mut bus = runtime::Bus::new(vec![node]);
+    drop(bus.poll(0));
+    let bus = WithoutBlocks(Virtual { bus, heard: VecDeque::new(), now: 0 });
+    let mut client = Client::new(bus, Duration::from_millis(500));
+    for code in [0, 3] {
+        client.write(5, Program::id(0x1F51), &[code]).unwrap();
+    }
+    let data = [9; 1000];
+    let told = |_| ControlFlow::Continue(());
+    client.load(5, Program::id(0x1F50), &data, Duration::from_secs(1), told).unwrap();
+    assert_eq!(client.read(5, Program::id(0x1F50)).unwrap(), data);
 }
 
 #[test]
@@ -285,6 +437,23 @@ fn a_read_is_repeated_when_a_frame_was_lost_or_broken() {
             assert!(silent.is_of_node() && client.bus().requests == 2, "{silent}");
         },
     );
+}
+
+/// The late answer begins the second transfer, and the answer to that comes in its middle.
+#[test]
+fn an_answer_that_came_too_late_uses_up_no_repetition() {
+    let mut late = None;
+    let becomes = move |at, frame| {
+        if at == 1 {
+            late = Some(frame);
+            return Vec::new();
+        }
+        late.take().into_iter().chain([frame]).collect()
+    };
+    with_dirt(becomes, |client| {
+        assert_eq!(client.read(5, id(0x2002)).unwrap(), b"A lamp of glass");
+        assert_eq!(client.read(5, id(0x2000)).unwrap(), [20, 0]);
+    });
 }
 
 #[test]

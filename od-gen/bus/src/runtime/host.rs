@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
-use firmware_glue::node::{NodeHandler, Reset};
+use firmware_glue::node::{Event, NodeHandler, Reset};
 use firmware_glue::pdo::engine::PdoHandler;
 use firmware_glue::storage::{ALL, Command};
 use firmware_glue::{AbortCode, Application, Dictionary, EntryId, NodeId, Storage};
 
 use super::LiveDictionary;
+use super::programs::Programs;
 
 /// What a virtual node checks of a value beyond what its dictionary says. A firmware chooses, too: it gives its services the application, or
 /// the application behind [`firmware_glue::Consistent`].
@@ -38,6 +39,7 @@ pub(super) struct Host {
     domains: BTreeMap<EntryId, Vec<u8>>,
     /// The DOMAIN that is being written, which takes the place of the old one when it is whole.
     coming: Option<(EntryId, Vec<u8>)>,
+    programs: Programs,
 }
 
 /// Values of a storage group.
@@ -64,6 +66,7 @@ impl Host {
             bit_rates,
             domains: BTreeMap::new(),
             coming: None,
+            programs: Programs::of(dictionary),
         }
     }
 
@@ -83,7 +86,7 @@ impl Host {
 }
 
 impl Application<LiveDictionary<'_>> for Host {
-    /// Looks at constraints, where it is to; carries out "store parameters" and "restore defaults".
+    /// Looks at constraints, where it is to; carries out "store parameters" and "restore defaults", and commands for programs.
     fn accept(
         &mut self,
         dictionary: &mut LiveDictionary<'_>,
@@ -95,6 +98,7 @@ impl Application<LiveDictionary<'_>> for Host {
             Checks::Constraints if dictionary.stays_consistent(entry, value) => {}
             Checks::Constraints => return Err(AbortCode::INCOMPATIBLE),
         }
+        self.programs.accept(entry, value)?;
         let Some(command) = Command::of(entry) else { return Ok(()) };
         for storage in command.groups() {
             match command {
@@ -111,7 +115,9 @@ impl Application<LiveDictionary<'_>> for Host {
         Ok(())
     }
 
-    fn changed(&mut self, _: &mut LiveDictionary<'_>, entry: EntryId) {
+    fn changed(&mut self, dictionary: &mut LiveDictionary<'_>, entry: EntryId) {
+        // A command is no value.
+        self.programs.tell(dictionary);
         self.changed.push(entry);
     }
 
@@ -134,12 +140,13 @@ impl Application<LiveDictionary<'_>> for Host {
 
     fn write_domain(
         &mut self,
-        _: &mut LiveDictionary<'_>,
+        dictionary: &mut LiveDictionary<'_>,
         entry: EntryId,
         offset: u32,
         data: &[u8],
         last: bool,
     ) -> Result<(), AbortCode> {
+        self.programs.takes(entry)?;
         let (of, mut whole) = match self.coming.take() {
             Some(coming) if offset > 0 => coming,
             _ => (entry, Vec::new()),
@@ -152,6 +159,8 @@ impl Application<LiveDictionary<'_>> for Host {
         }
         whole.extend(data);
         if last {
+            self.programs.loaded(entry, &whole);
+            self.programs.tell(dictionary);
             self.domains.insert(entry, whole);
         } else {
             self.coming = Some((entry, whole));
@@ -192,7 +201,15 @@ impl NodeHandler<LiveDictionary<'_>> for Host {
             }
         }
         tell_commands(dictionary);
+        self.programs.restart(reset);
+        self.programs.tell(dictionary);
         self.has_restarted = true;
+    }
+
+    fn node_event(&mut self, _: &mut LiveDictionary<'_>, event: Event) {
+        if let Event::State(state) = event {
+            self.programs.enter(state);
+        }
     }
 }
 

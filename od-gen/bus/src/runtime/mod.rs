@@ -12,6 +12,7 @@ mod glue;
 mod host;
 mod lists;
 mod node;
+mod programs;
 
 use firmware_glue::table::{Row, Table};
 use firmware_glue::{AbortCode, Dictionary, Entries, EntryId, TableDictionary, WrongSize};

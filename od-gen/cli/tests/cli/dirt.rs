@@ -305,6 +305,24 @@ fn a_node_that_starts_again_before_its_turn_is_not_written_to() {
     assert!(has.contains("= 40.0 °C") && said.ends_with("-> 1\n"), "{said}{has}");
 }
 
+/// It got its values, and perhaps has lost them.
+#[test]
+fn a_node_that_starts_again_after_its_turn_is_told_with_what_was_sent() {
+    let mut is_brought = false;
+    let brings = Box::new(move |line: &str| {
+        let of_hall = line.starts_with("t586860002000");
+        let first = of_hall && !std::mem::replace(&mut is_brought, of_hall);
+        Some(if first { format!("{BOOT_UP}\r{line}") } else { line.to_owned() })
+    });
+    let bus = house("dirt-turn-after", same(), brings);
+    let said = bus.run(&["restore", "house.yaml", "kept", "--yes", "--skip", "4"]);
+    assert!(
+        said.contains("  bath heater (node 5)  started again in the middle, 2 values were sent\n"),
+        "{said}"
+    );
+    assert!(said.contains("  hall heater (node 6)  restored\n") && said.ends_with("-> 1\n"), "{said}");
+}
+
 #[test]
 fn each_node_of_a_machine_is_told_with_its_state() {
     // The first node answers until it is told to take the first value.

@@ -31,6 +31,7 @@ mod node;
 mod node_of_file;
 mod parts;
 mod plant;
+mod program;
 mod provoked;
 mod readme;
 mod relay;

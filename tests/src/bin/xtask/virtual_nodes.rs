@@ -19,6 +19,7 @@ pub(crate) fn prove(runner: &mut Runner, specs: &[&str], python: &Path, odgen: &
     run("tests/readers/readme_turbine.py", &[])?;
     run("tests/readers/traces.py", &[])?;
     run("tests/readers/confirmed.py", &[])?;
+    run("tests/readers/bridge.py", &["--self-test"])?;
     for stem in specs {
         let (dump, spec) = (format!("generated/{stem}.json"), format!("od-spec/devices/{stem}.od.yaml"));
         let arguments = ["--dump", &dump, "--eds-dir", "generated/eds", "--spec", &spec];

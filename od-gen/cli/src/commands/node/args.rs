@@ -8,6 +8,7 @@ use od_bus::trace::Service;
 use od_spec::diag::{Diagnostic, codes};
 
 use super::confirm::ConfirmArgs;
+use super::program::NodeProgramArgs;
 use crate::bus_nodes::NodesArgs;
 use crate::messages::{Format, Messages};
 use crate::report::{Report, node_id};
@@ -34,6 +35,8 @@ pub(crate) enum NodeCommand {
     Monitor(NodeMonitorArgs),
     /// Ask all 127 node-IDs who they are, and tell which of the specifications fits
     Scan(NodeScanArgs),
+    /// Load a program into a node (1F50h), after a question: it is stopped, deleted, loaded in blocks, checked and started
+    Program(NodeProgramArgs),
     /// Command the state of a node, or of all
     Nmt(NodeNmtArgs),
     /// Make a node store its parameters (1010h)
@@ -53,6 +56,7 @@ impl NodeCommand {
             Self::Restore(args) => args.file.node.link.messages.format,
             Self::Monitor(args) => args.link.messages.format,
             Self::Scan(args) => args.link.messages.format,
+            Self::Program(args) => args.node.link.messages.format,
             Self::Nmt(args) => args.link.messages.format,
             Self::Store(args) | Self::LoadDefaults(args) => args.node.link.messages.format,
         }
@@ -62,7 +66,7 @@ impl NodeCommand {
 /// How the bus is reached.
 #[derive(Debug, Args)]
 pub(crate) struct LinkArgs {
-    /// The CAN adapter, which speaks SLCAN: `tcp:HOST:PORT`, such as `odgen serve`, or `serial:PORT[@BAUD]`, such as `serial:/dev/ttyACM0`
+    /// The CAN adapter, which speaks SLCAN: `tcp:HOST:PORT`, such as `odgen serve` or `odgen-bridge`, or `serial:PORT[@BAUD]`, such as `serial:/dev/ttyACM0`
     #[arg(long, value_name = "ADAPTER", default_value = "tcp:127.0.0.1:3333")]
     pub slcan: String,
 
@@ -262,7 +266,7 @@ pub(crate) struct NodeMonitorArgs {
 }
 
 /// `1.5`.
-fn duration(text: &str) -> Result<Duration, String> {
+pub(super) fn duration(text: &str) -> Result<Duration, String> {
     let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
     let seconds = text.parse().ok().filter(|_| is_plain);
     seconds

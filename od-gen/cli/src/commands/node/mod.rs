@@ -11,6 +11,7 @@ mod machine;
 mod monitor;
 mod network;
 mod outcome;
+mod program;
 mod reach;
 mod restore;
 mod sign;
@@ -43,6 +44,7 @@ pub(crate) fn run(args: &NodeArgs, directory: &Path, report: &Report) -> u8 {
         NodeCommand::Restore(args) => restore::restore(args, report),
         NodeCommand::Monitor(args) => monitor::monitor(args, directory, report),
         NodeCommand::Scan(args) => network::scan(args, report),
+        NodeCommand::Program(args) => program::program(args, report),
         NodeCommand::Nmt(args) => network::nmt(args, report),
         NodeCommand::Store(args) => sign::store(args, report),
         NodeCommand::LoadDefaults(args) => sign::load_defaults(args, report),

@@ -12,6 +12,8 @@ pub(super) struct Outcome<'a> {
     /// The exit code that it has for itself.
     pub(super) code: u8,
     pub(super) state: State,
+    /// So many values were sent.
+    pub(super) sent: usize,
 }
 
 /// In which state a node is.
@@ -23,24 +25,26 @@ pub(super) enum State {
     Differs,
     /// It cannot get what it is to get; nothing was sent.
     Unfit,
-    /// It was not its turn, or what was to be done failed before anything was sent.
-    LeftAlone,
-    /// So many values were sent, and not all is done.
-    Sent(usize),
+    /// Not all is done: it failed, or it was not its turn.
+    NotDone,
     /// It started again.
     Started,
 }
 
 impl<'a> Outcome<'a> {
     /// After an exit code and so many writes.
-    pub(super) const fn after(target: Target<'a>, code: u8, writes: usize) -> Self {
-        let state = match (code, writes) {
-            (SUCCESS, _) => State::Done,
-            (DIFFERS, _) => State::Differs,
-            (_, 0) => State::LeftAlone,
-            (_, writes) => State::Sent(writes),
+    pub(super) const fn after(target: Target<'a>, code: u8, sent: usize) -> Self {
+        let state = match code {
+            SUCCESS => State::Done,
+            DIFFERS => State::Differs,
+            _ => State::NotDone,
         };
-        Self { target, code, state }
+        Self { target, code, state, sent }
+    }
+
+    /// Before anything was sent.
+    pub(super) const fn untouched(target: Target<'a>, code: u8, state: State) -> Self {
+        Self { target, code, state, sent: 0 }
     }
 
     /// A node that was done with first may have started again while others were.
@@ -54,14 +58,18 @@ impl<'a> Outcome<'a> {
 
     /// The line about it, where something is `compared` or `restored`.
     pub(super) fn line(&self, done: &str) -> String {
+        let sent = match self.sent {
+            0 => String::new(),
+            1 => ", 1 value was sent".to_owned(),
+            sent => format!(", {sent} values were sent"),
+        };
         let state = match self.state {
             State::Done => done.to_owned(),
             State::Differs => "differs".to_owned(),
             State::Unfit => format!("cannot be {done}, left as it was"),
-            State::LeftAlone => format!("not {done}, left as it was"),
-            State::Sent(1) => format!("not {done}, 1 value was sent"),
-            State::Sent(writes) => format!("not {done}, {writes} values were sent"),
-            State::Started => "started again in the middle".to_owned(),
+            State::NotDone if self.sent == 0 => format!("not {done}, left as it was"),
+            State::NotDone => format!("not {done}{sent}"),
+            State::Started => format!("started again in the middle{sent}"),
         };
         format!("  {}  {state}\n", self.target.name())
     }

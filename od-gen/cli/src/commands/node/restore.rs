@@ -79,11 +79,11 @@ pub(super) fn restored<'a, B: Bus>(
     for plan in &plans {
         let target = plan.beside.target;
         if interrupt.is_wanted() {
-            outcomes.push(Outcome { target, code: INTERRUPTED, state: State::LeftAlone });
+            outcomes.push(Outcome::untouched(target, INTERRUPTED, State::NotDone));
             continue;
         }
         if let Err(code) = target.has_started(client, report) {
-            outcomes.push(Outcome { target, code, state: State::Started });
+            outcomes.push(Outcome::untouched(target, code, State::Started));
             continue;
         }
         let before = client.writes();
@@ -102,10 +102,10 @@ fn left_alone<'a>(
 ) -> Vec<Outcome<'a>> {
     let outcome = |(beside, plan): (&Beside<'a>, &Result<Planned<'_, 'a>, u8>)| {
         let (code, state) = match plan {
-            Ok(_) => (ERRORS, State::LeftAlone),
+            Ok(_) => (ERRORS, State::NotDone),
             Err(code) => (*code, State::Unfit),
         };
-        Outcome { target: beside.target, code: worse(code, printed), state }
+        Outcome::untouched(beside.target, worse(code, printed), state)
     };
     let outcomes: Vec<Outcome<'a>> = all.iter().zip(plans).map(outcome).collect();
     let unfit: Vec<String> = outcomes
