@@ -248,6 +248,8 @@ def check_process(trial: Trial, commands: Commands, odgen: str, spec: Path, eds:
 
 
 def check_command_line(trial: Trial) -> None:
+    # A shell that runs this in the background has SIGINT ignored, which a started process keeps.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with process("virtual", "line", "--port", "0") as one:
         port = port_of(one)
         with process("virtual", "line", "--port", str(port)) as second:

@@ -41,6 +41,7 @@ def at_terminal(command: list[str], typed: str) -> tuple[int, str]:
     """Runs a command at a terminal and types an answer to its question."""
     child, terminal = pty.fork()
     if child == 0:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # A shell that runs this in the background has it ignored.
         os.execv(command[0], command)
     shown = b""
     while b"[y/N] " not in shown:

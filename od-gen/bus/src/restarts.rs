@@ -29,8 +29,8 @@ pub enum Restart {
 pub(crate) struct Restarts {
     /// The last state of each node.
     states: BTreeMap<u8, u8>,
-    /// Nodes that were told to become pre-operational, and have not said that they are.
-    told: BTreeSet<u8>,
+    /// Nodes that were commanded to become pre-operational, and have not shown it yet.
+    commanded: BTreeSet<u8>,
     found: BTreeMap<u8, Restart>,
 }
 
@@ -40,7 +40,7 @@ impl Restarts {
         let id = frame.id().get();
         if let (NMT, Some([ENTER_PRE_OPERATIONAL, node])) = (id, frame.bytes()) {
             let nodes = if *node == 0 { 1..=127 } else { *node..=*node };
-            self.told.extend(nodes);
+            self.commanded.extend(nodes);
             return None;
         }
         let node = id.checked_sub(ERROR_CONTROL).and_then(|node| u8::try_from(node).ok());
@@ -52,8 +52,8 @@ impl Restarts {
         let restart = match (before, state) {
             (_, BOOT_UP) => Restart::BootUp,
             (before, PRE_OPERATIONAL) => {
-                let was_told = self.told.remove(&node);
-                if was_told || !matches!(before, Some(STOPPED | OPERATIONAL)) {
+                let was_commanded = self.commanded.remove(&node);
+                if was_commanded || !matches!(before, Some(STOPPED | OPERATIONAL)) {
                     return None;
                 }
                 Restart::FellBack
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_node_that_does_as_it_is_told_does_not_start_again() {
+    fn a_node_that_does_as_it_is_commanded_does_not_start_again() {
         assert_eq!(after(&[(0x705, &[127]), (0x705, &[5]), (0x705, &[5]), (0x705, &[4])]), [None; 2]);
         assert_eq!(after(&[(0x706, &[127]), (0x705, &[127])]), [None; 2]);
         for node in [0, 5] {

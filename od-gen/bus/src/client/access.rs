@@ -368,8 +368,12 @@ impl<B: Bus> Client<B> {
     /// # Errors
     /// [`BusError`]: it was not sent.
     pub fn command(&mut self, command: u8, node: u8) -> Result<(), BusError> {
-        let frame = CanId::new(0).and_then(|id| Frame::data(id, &[command, node]));
-        frame.map_or(Ok(()), |frame| self.bus.send(&frame))
+        let Some(frame) = CanId::new(0).and_then(|id| Frame::data(id, &[command, node])) else {
+            return Ok(());
+        };
+        // A node that does as it is commanded does not start again.
+        self.restarts.hear(&frame);
+        self.bus.send(&frame)
     }
 
     /// Waits for the boot-up message of a node; whether it came in time.

@@ -532,3 +532,17 @@ fn a_plan_begins_with_what_the_node_has() {
     assert_eq!(order(&back, &back), [0_u16; 0], "nothing to do");
     assert_eq!(order(&[(0x2000, 20), (0x2001, 60)], &back), [0x2001]);
 }
+
+#[test]
+fn a_node_that_obeys_the_client_does_not_start_again() {
+    with_lamps(|_, client| {
+        let heartbeat = EntryId { index: Index(0x1017), sub: SubIndex(0) };
+        client.write(5, heartbeat, &[10, 0]).unwrap();
+        for command in [1, 128] {
+            client.command(command, 5).unwrap();
+            // Nobody starts; heartbeats are heard.
+            assert!(!client.booted(5, Duration::from_millis(50)).unwrap());
+        }
+        assert_eq!(client.restarted(5).unwrap(), None);
+    });
+}

@@ -8,7 +8,6 @@ use od_bus::trace::Service;
 use od_spec::diag::{Diagnostic, codes};
 
 use super::confirm::ConfirmArgs;
-use super::program::NodeProgramArgs;
 use crate::bus_nodes::NodesArgs;
 use crate::messages::{Format, Messages};
 use crate::report::{Report, node_id};
@@ -311,6 +310,29 @@ impl ServiceName {
             Self::Unknown => Service::Unknown,
         }
     }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct NodeProgramArgs {
+    /// Specification, EDS, DCF, XDD or XDC of the node's device; or a plant file, with all nodes of a machine
+    pub spec: PathBuf,
+
+    #[command(flatten)]
+    pub node: OneNodeArgs,
+
+    /// The program, byte for byte as the device takes it
+    pub file: PathBuf,
+
+    /// Which program of the device: the sub-index of 1F50h
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=254))]
+    pub program: u8,
+
+    /// Seconds that the node may need to delete, write or start a program
+    #[arg(long, value_name = "SECONDS", default_value = "30", value_parser = duration)]
+    pub patience: Duration,
+
+    #[command(flatten)]
+    pub confirm: ConfirmArgs,
 }
 
 #[derive(Debug, Args)]

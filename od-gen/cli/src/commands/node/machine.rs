@@ -13,9 +13,10 @@ use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 
 use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs, OneNodeArgs, SkipArgs};
-use super::keep::{Beside, beside, compared, kept_line, parameters_of};
+use super::beside::{Beside, beside, compared};
 use super::outcome::{Outcome, State, worse};
 use super::restore::restored;
+use super::taken::{kept_line, parameters_of};
 use super::{Target, connect, is_meant};
 use crate::exit::{DIFFERS, INTERRUPTED, SUCCESS};
 use crate::interrupt::Interrupt;
@@ -146,7 +147,7 @@ impl Machine {
         let (interrupt, mut outcomes) = (Interrupt::noted(), Vec::new());
         for beside in &all {
             if interrupt.is_wanted() {
-                outcomes.push(Outcome { target: beside.target, code: INTERRUPTED, state: State::LeftAlone });
+                outcomes.push(Outcome::untouched(beside.target, INTERRUPTED, State::NotDone));
                 continue;
             }
             let code = is_meant(&mut client, &args.node, beside.target, report)

@@ -2,6 +2,7 @@
 
 mod access;
 mod args;
+mod beside;
 mod confirm;
 mod doubt;
 mod had;
@@ -15,6 +16,7 @@ mod program;
 mod reach;
 mod restore;
 mod sign;
+mod taken;
 
 use std::cell::OnceCell;
 use std::path::Path;
@@ -41,7 +43,7 @@ pub(crate) fn run(args: &NodeArgs, directory: &Path, report: &Report) -> u8 {
         NodeCommand::Write(args) => access::write(args, report),
         NodeCommand::Backup(args) => keep::backup(args, report),
         NodeCommand::Compare(args) => keep::compare(args, report),
-        NodeCommand::Restore(args) => restore::restore(args, report),
+        NodeCommand::Restore(args) => keep::restore(args, report),
         NodeCommand::Monitor(args) => monitor::monitor(args, directory, report),
         NodeCommand::Scan(args) => network::scan(args, report),
         NodeCommand::Program(args) => program::program(args, report),

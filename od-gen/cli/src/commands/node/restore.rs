@@ -1,4 +1,4 @@
-//! `odgen node restore`: nodes get the values of parameter files. All are asked and judged before the first is written to.
+//! Nodes get the values of parameter files. All are asked and judged before the first is written to.
 
 use std::collections::BTreeSet;
 
@@ -9,33 +9,16 @@ use od_spec::source::{SourceMap, Span};
 use od_spec::{Assigned, Commissioning, assign_layers, rule_codes};
 
 use super::args::NodeRestoreArgs;
+use super::beside::{Beside, shown_errors, told_differences};
 use super::confirm::{Change, preview};
 use super::doubt::{Presence, Untaken, Unwritten, sent};
 use super::had::{Had, had, values, words};
 use super::hand::{InHand, pdo_of};
-use super::keep::{Beside, beside_one, machine_of, shown_errors, told_differences};
 use super::outcome::{Outcome, State, worse};
-use super::{Described, Target, connect, is_meant, on_the_bus};
+use super::{Target, is_meant, on_the_bus};
 use crate::exit::{ERRORS, INTERRUPTED, SUCCESS};
 use crate::interrupt::Interrupt;
 use crate::report::{Report, print, shown};
-
-/// Writes what a file sets and the node has otherwise, and reads all of it back; the same for the files of a directory and the nodes of a
-/// machine.
-pub(super) fn restore(args: &NodeRestoreArgs, report: &Report) -> Result<u8, u8> {
-    let described = Described::read(&args.file.spec, &args.file.node, report)?;
-    if let Some(machine) = machine_of(&described, &args.file) {
-        return machine.restore(args, report);
-    }
-    let beside = beside_one(&described, &args.file, report)?;
-    let mut client = connect(&args.file.node.link, report)?;
-    let mut code = SUCCESS;
-    for mut outcome in restored(&mut client, args, std::slice::from_ref(&beside), report)? {
-        outcome.heed_start(&mut client, report);
-        code = worse(code, outcome.code);
-    }
-    Ok(code)
-}
 
 /// What a node is to get.
 struct Planned<'b, 'a> {

@@ -9,8 +9,9 @@ use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::EntryId;
 
 use super::failure::{Effect, Failure, Step, left};
-use super::{NodeProgramArgs, Places, little_endian, state, state_in_words};
+use super::{Places, little_endian, state, state_in_words};
 use crate::commands::node::Target;
+use crate::commands::node::args::NodeProgramArgs;
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::report::Report;

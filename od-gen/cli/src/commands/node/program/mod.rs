@@ -1,6 +1,5 @@
 //! `odgen node program`: loads a program into a node (CiA 302-3).
 
-mod args;
 mod download;
 mod failure;
 
@@ -12,8 +11,8 @@ use od_bus::program::{CONTROL, DATA, FLASH, IDENTIFICATION, State};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{EntryId, Index, SubIndex};
 
-pub(crate) use self::args::NodeProgramArgs;
 use self::download::Download;
+use super::args::NodeProgramArgs;
 use super::{Described, Target, reach};
 use crate::exit::INTERRUPTED;
 use crate::interrupt::Interrupt;
