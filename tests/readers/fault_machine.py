@@ -36,8 +36,8 @@ sites:
       1: {{positions: {{A: {{pmm: {{serial: 101}}, pmc: {{serial: 111}}}}, B: {{pmc: {{serial: 112}}}}}}}}
 """
 DEVICES = {1: "pmm", 11: "pmc", 12: "pmc"}
-TIMEOUT_MS = 2000
-"""How long `odgen node` waits for an answer; a virtual node answers within a millisecond."""
+TIMEOUT = 3.0
+"""Seconds after which `odgen node` gives up waiting for a lost answer. All others come within a millisecond, and have PATIENCE."""
 
 State = dict[Id, bytes]
 
@@ -130,7 +130,8 @@ class Machine:
 
     def node(self, arguments: list[str], folder: Path, fault: Fault, running: Running, room: Room) -> Done:
         """Runs `odgen node` over the relay, in a folder."""
-        whole = [self.odgen, "node", *arguments, "--timeout", str(TIMEOUT_MS), "--slcan", self.relay.address]
+        timeout = TIMEOUT if fault.keeps_waiting else PATIENCE
+        whole = [self.odgen, "node", *arguments, "--timeout", f"{1000 * timeout:.0f}", "--slcan", self.relay.address]
         if room.of_file is not None:
             # A limit for the size of files ends a write as a full disk does, and needs no disk of its own. It counts 512 bytes.
             whole = ["sh", "-c", f"trap '' XFSZ; ulimit -f {room.of_file // 512}; exec {shlex.join(whole)}"]

@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import multiprocessing
 import re
+import signal
 import sys
 import tempfile
 import time
@@ -31,6 +32,8 @@ NODE = 11
 FILES = ("A-pmm.yaml", "A-pmc.yaml", "B-pmc.yaml")
 FULL = Room(of_file=4096)
 """A part of a file fits."""
+NOT_A_BYTE = Room(of_file=0)
+"""For commands that write no file: they need nothing."""
 WORKERS = 4
 
 COB_ID, COUNT, MAPPED, TARGET, VELOCITY = (0x1800, 1), (0x1A00, 0), (0x1A00, 2), (0x567A, 0), (0x5681, 0)
@@ -106,6 +109,47 @@ class Expected:
     file: str = NONE
 
 
+DONE = {
+    "backup": r"kept/B-pmc\.yaml  \d+ values of B pmc \(node 12\)",
+    "compare": "Bench 1: 3 of 3 nodes compared, 3 differ",
+    "restore": "Bench 1: 3 of 3 nodes restored",
+    "write": "5681h .*  written",
+    "store": r"A pmc \(node 11\) has stored its parameters",
+}
+"""What is printed after success."""
+
+FAILED = {
+    "node dead": "the node does not answer",
+    "wrong type": "node 11 is no `pmc`: 1000h Device type",
+    "wrong serial": r"node 11 is another `pmc`: 1018h\.4 .*Serial number",
+    "restarts in the middle": r"A pmc \(node 11\) started again in the middle",
+    "slow": "the node does not answer",
+    "request lost": "the node does not answer",
+    "answer lost": "the node does not answer",
+    "malformed answers": "the node's answer is malformed",
+    "Ctrl-C": "interrupted before all was",
+    "disk full": r"cannot write kept/A-pmm\.yaml",
+    "standard output full": "cannot write to standard output",
+}
+"""What is printed where a command fails."""
+
+AGAIN = r"A pmc \(node 11\): 1 value was read only when asked for again"
+HAS_IT = "read back, it has the value"
+OVERCOME = {
+    **{(command, fault): AGAIN for command in ("backup", "compare") for fault in ("slow", "request lost", "answer lost")},
+    **{(command, fault): HAS_IT for command in ("restore", "write") for fault in ("slow", "answer lost")},
+    ("restore", "request lost"): "read back, it does not have the value, which is written again",
+    ("backup", "malformed answers"): r"left out: 1A00h\.2 ",
+}
+"""What is printed where a command succeeds all the same."""
+
+
+def said(command: str, fault: str) -> list[str]:
+    is_done = expected(command, fault).code in (0, 3)
+    overcome = OVERCOME.get((command, fault)) if is_done else None
+    return [DONE[command] if is_done else FAILED[fault], *([overcome] if overcome else [])]
+
+
 def expected(command: str, fault: str) -> Expected:
     same = (OLD, OLD, OLD)
     match command:
@@ -131,7 +175,10 @@ def expected(command: str, fault: str) -> Expected:
             match fault:
                 case "wrong type" | "wrong serial" | "standard output full":
                     return Expected(1, same)
-                case "node dead" | "malformed answers" | "restarts in the middle" | "request lost" | "Ctrl-C":
+                case "restarts in the middle":
+                    # It has lost what was written, and the next value is refused because TPDO 1 is on again.
+                    return Expected(1, same)
+                case "node dead" | "malformed answers" | "request lost" | "Ctrl-C":
                     return Expected(130 if fault == "Ctrl-C" else 1, (OLD, PART, OLD))
             return Expected(0, (OLD, NEW, OLD))
         case "store":
@@ -199,10 +246,9 @@ def files_in(folder: Path) -> dict[str, bytes]:
 def observe(machine: Machine, baseline: Baseline, command: str, fault: str) -> Observed:
     """Lets it happen."""
     arguments, at = COMMANDS[command]
-    if (command, fault) == ("write", "restarts in the middle"):
-        # At the last value: the node has lost the others, and refuses nothing.
-        at = replace(at, count=len(SETTINGS))
     kind, room = FAULTS[fault]
+    if fault == "disk full" and command != "backup":
+        room = NOT_A_BYTE
     running = Running()
     happens = kind(NODE, at, running.interrupt)
     if command == "store":
@@ -280,8 +326,8 @@ def printed(done: Done) -> list[str]:
     found = [*errors[:1], *(note for note in notes if note not in unsent and note not in less)]
     if unsent:
         found.append(f"{len(unsent)} entries are named as not sent")
-    found += [line for line in done.out.splitlines() if line.startswith("Bench 1")]
-    return found or [line.strip() for line in done.out.splitlines()[-1:]]
+    of_machine = [line for line in done.out.splitlines() if line.startswith("Bench 1")]
+    return found + (of_machine or [line.strip() for line in done.out.splitlines()[-1:] if done.code == 0])
 
 
 # What is right.
@@ -298,6 +344,7 @@ def judge(command: str, fault: str, baseline: Baseline, observed: Observed) -> l
         problems.append("it panics")
     if not printed(done) or right.code not in (0, 3) and "error" not in done.err:
         problems.append("it is silent")
+    problems += [f"it does not print: {words}" for words in said(command, fault) if not re.search(words, done.out + done.err)]
     found = states(command, baseline, observed)
     if found != right.nodes:
         problems.append(f"nodes are {found}, and {right.nodes} is right")
@@ -357,7 +404,7 @@ def values_problems(node: int, baseline: Baseline, observed: Observed) -> list[s
             problems.append(f"{name} is old, and named as written")
         elif value == old[id] and told.written and id not in told.missing and not restarted:
             problems.append(f"{name} is old, and not named as missing")
-    if told.left_off and not is_off(has) and not restarted:
+    if told.left_off and not is_off(has):
         problems.append("TPDO 1 is on, and named as left off")
     pdo = [id for id in has if id[0] in (COB_ID[0], COUNT[0])]
     if not is_off(has) and [has[id] for id in pdo] not in ([old[id] for id in pdo], [new[id] for id in pdo]):
@@ -388,6 +435,8 @@ def row(cell: Cell, baseline: Baseline) -> list[str]:
             count = sum(has[id] == new[id] for id in changing)
             words[at] = f"{count} of {len(changing)} new" + ("; TPDO 1 is off" if is_off(has) else "")
     texts = [re.sub(r"[|<]", r"\\\g<0>", line) for line in printed(cell.observed.done)]
+    if cell.fault == "disk full" and cell.command != "backup":
+        texts.insert(0, "does not apply, as the command writes no file:")
     code = str(cell.observed.done.code)
     file = expected(cell.command, cell.fault).file
     return [f"`{cell.command}`", cell.fault, "<br>".join(texts), code, *words, file]
@@ -439,6 +488,10 @@ SPOILED: list[tuple[str, str, str, Spoil]] = [
     ("it panics", "compare", "node dead", with_done(lambda done: replace(done, err=f"{done.err}thread panicked"))),
     ("it is silent", "write", "node dead", with_done(lambda done: replace(done, err=""))),
     ("it is silent", "store", "nothing", with_done(lambda done: replace(done, out=""))),
+    ("it does not print: the node does not answer", "backup", "node dead", without("does not answer")),
+    ("it does not print: A pmc", "compare", "slow", without("asked for again")),
+    ("it does not print: read back, it has", "write", "answer lost", without("read back")),
+    ("it does not print: interrupted", "restore", "Ctrl-C", without("interrupted")),
     ("nodes are", "write", "nothing", with_value((0x30C0, 0), (900).to_bytes(2, "little"), 1)),
     ("nodes are", "store", "nothing", lambda observed, base: replace(observed, after_reset={TARGET: base.old[NODE][TARGET]})),
     ("which is not old and not new", "restore", "answer lost", with_value(TARGET, bytes(4))),
@@ -499,6 +552,8 @@ def main() -> int:
     parser.add_argument("--only", choices=COMMANDS, help="a single command; the page is not compared")
     parser.add_argument("--verbose", action="store_true", help="also print what each command printed")
     options = parser.parse_args()
+    # A program that is started in the background may ignore Ctrl-C, and so would all that it starts.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     began = time.monotonic()
     names = [(command, fault) for command in COMMANDS for fault in FAULTS if options.only in (None, command)]
     with tempfile.TemporaryDirectory() as folder:

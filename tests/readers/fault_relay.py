@@ -33,6 +33,9 @@ class At:
 class Fault:
     """Does nothing; the others change a part of it. Lines of SLCAN go in, and those that go on come out."""
 
+    keeps_waiting: ClassVar[bool] = False
+    """Whether the host does not get an answer within its timeout."""
+
     def __init__(self, node: int, at: At, interrupt: Callable[[], None] = lambda: None) -> None:
         self.node, self.at, self.interrupt = node, at, interrupt
         self.requests = 0
@@ -76,6 +79,8 @@ class Fault:
 class Dead(Fault):
     """The node gets the request, and is not heard any more."""
 
+    keeps_waiting = True
+
     def later(self, line: bytes) -> Iterable[bytes]:
         return [] if self.has_begun else [line]
 
@@ -117,6 +122,7 @@ class Resets(Fault):
 class Slow(Fault):
     """The answer comes after the host has given up: when it sends the next frame to the node."""
 
+    keeps_waiting = True
     held: bytes | None = None
     is_given_up = False
 
@@ -138,11 +144,14 @@ class Slow(Fault):
 
 
 class RequestLost(Fault):
+    keeps_waiting = True
+
     def first(self, line: bytes) -> Iterable[bytes]:
         return []
 
 
 class AnswerLost(Fault):
+    keeps_waiting = True
     is_lost = False
 
     def answer(self, line: bytes) -> Iterable[bytes]:

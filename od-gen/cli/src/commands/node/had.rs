@@ -71,9 +71,11 @@ pub(super) fn had<B: Bus>(
     report: &Report,
 ) -> Result<Had, u8> {
     let ids: Vec<EntryId> = ids.into_iter().collect();
+    let recovered = client.recovered();
     let mut progress = Progress::new("read", "values", ids.len(), report.audience());
     let had = had_of(client, target, &ids, interrupt, &mut progress);
     progress.clear();
+    tell_recovered(target, client.recovered() - recovered, report);
     had.map_err(|unread| match unread {
         Unread::Failed(id, error) => report.refuse(target.failed("read", id, &error)),
         Unread::Interrupted => {
@@ -85,6 +87,20 @@ pub(super) fn had<B: Bus>(
             INTERRUPTED
         }
     })
+}
+
+/// Notes that so many values were read only when they were asked for again: the bus is to be looked at.
+pub(super) fn tell_recovered(target: Target<'_>, count: usize, report: &Report) {
+    let was = match count {
+        0 => return,
+        1 => "was",
+        _ => "were",
+    };
+    report.note(&format!(
+        "{}{} {was} read only when asked for again: frames were lost or broken, or the node is slow",
+        target.mark(),
+        values(count)
+    ));
 }
 
 /// Why not all entries were read.

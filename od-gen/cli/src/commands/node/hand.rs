@@ -1,7 +1,8 @@
-//! Writes that somebody interrupts: the step in hand is finished, and what is not sent any more is told.
+//! Writes that the user interrupts: the step in hand is finished, and what is not sent any more is reported.
 
 use std::collections::BTreeSet;
 
+use od_bus::client::{Bus, Client};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{EntryId, Index, Role, SubIndex};
 
@@ -50,7 +51,16 @@ impl<'i> InHand<'i> {
     }
 
     /// Names the PDOs that are off, unless their node has started again, because the rest of their parameters was not sent.
-    pub(super) fn tell_left_off(&self, target: Target<'_>, missing: &BTreeSet<EntryId>, report: &Report) {
+    pub(super) fn tell_left_off<B: Bus>(
+        &self,
+        client: &mut Client<B>,
+        target: Target<'_>,
+        missing: &BTreeSet<EntryId>,
+        report: &Report,
+    ) {
+        if client.restarted(target.id).is_ok_and(|restart| restart.is_some()) {
+            return;
+        }
         for id in self.off.intersection(missing) {
             report.note(&format!(
                 "{}switched off and not switched on again: {}",
@@ -61,19 +71,30 @@ impl<'i> InHand<'i> {
     }
 
     /// Names what is not sent any more, and the PDOs that are off for that reason.
-    pub(super) fn tell_unsent(&self, target: Target<'_>, unsent: &[EntryId], report: &Report) {
+    pub(super) fn tell_unsent<B: Bus>(
+        &self,
+        client: &mut Client<B>,
+        target: Target<'_>,
+        unsent: &[EntryId],
+        report: &Report,
+    ) {
         for id in unsent {
             report.note(&format!("{}not sent any more: {}", target.mark(), target.words().entry(*id)));
         }
-        self.tell_left_off(target, &unsent.iter().copied().collect(), report);
+        self.tell_left_off(client, target, &unsent.iter().copied().collect(), report);
     }
 
     /// Says what was not sent; the exit code where that is anything.
-    pub(super) fn end(&self, target: Target<'_>, report: &Report) -> Result<(), u8> {
+    pub(super) fn end<B: Bus>(
+        &self,
+        client: &mut Client<B>,
+        target: Target<'_>,
+        report: &Report,
+    ) -> Result<(), u8> {
         if self.unsent.is_empty() {
             return Ok(());
         }
-        self.tell_unsent(target, &self.unsent, report);
+        self.tell_unsent(client, target, &self.unsent, report);
         let message = format!("{}: interrupted before all was sent", target.name());
         report.refuse(
             Diagnostic::without_place(codes::ACCESS_FAILED, message)

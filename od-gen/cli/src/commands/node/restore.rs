@@ -284,12 +284,12 @@ fn written<B: Bus>(
                 held_back.add(write.id);
                 if node == Presence::Gone {
                     let unsent: Vec<EntryId> = writes.iter().skip(at + 1).map(|write| write.id).collect();
-                    in_hand.tell_unsent(target, &unsent, report);
+                    in_hand.tell_unsent(client, target, &unsent, report);
                     return Err(code);
                 }
             }
         }
     }
-    in_hand.tell_left_off(target, &held_back.first, report);
-    in_hand.end(target, report).map(|()| code)
+    in_hand.tell_left_off(client, target, &held_back.first, report);
+    in_hand.end(client, target, report).map(|()| code)
 }
