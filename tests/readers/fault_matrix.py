@@ -210,6 +210,8 @@ class Observed:
     """What the node has after a restart, where it was told to store."""
     files: dict[str, bytes]
     loads: bool
+    again: tuple[int, dict[int, State]] | None
+    """Exit code and state of the nodes after `restore` or `write` failed and was given again, over a good bus."""
 
 
 @dataclass
@@ -258,6 +260,10 @@ def observe(machine: Machine, baseline: Baseline, command: str, fault: str) -> O
         given = [text.format(plant=machine.plant, new=baseline.folder / "new") for text in arguments]
         done = machine.node(given, folder, happens, running, room)
         nodes = machine.state()
+        again = None
+        if command in ("restore", "write") and done.code != 0:
+            repeated = machine.node(given, folder, Fault(NODE, at), Running(), Room())
+            again = repeated.code, machine.state()
         after_reset: State = {}
         if command == "store":
             machine.reset()
@@ -269,7 +275,7 @@ def observe(machine: Machine, baseline: Baseline, command: str, fault: str) -> O
             compared = machine.node(["compare", str(machine.plant), str(folder / "kept")], folder, Fault(NODE, at), Running(), Room())
             loads = compared.code == 0
     machine.forget()
-    return Observed(done, happens.has_begun, nodes, after_reset, files, loads)
+    return Observed(done, happens.has_begun, nodes, after_reset, files, loads, again)
 
 
 # What is said.
@@ -349,6 +355,9 @@ def judge(command: str, fault: str, baseline: Baseline, observed: Observed) -> l
     if found != right.nodes:
         problems.append(f"nodes are {found}, and {right.nodes} is right")
     problems += files_problems(observed, baseline, right.file)
+    written = DEVICES if command == "restore" else {NODE}
+    if observed.again and observed.again != (0, baseline.old | {node: baseline.new[node] for node in written}):
+        problems.append("given again, it does not bring all values")
     for node in DEVICES:
         problems += [f"node {node}: {problem}" for problem in values_problems(node, baseline, observed)]
     return problems
@@ -506,6 +515,8 @@ SPOILED: list[tuple[str, str, str, Spoil]] = [
     ("files [", "backup", "nothing", with_files(lambda files: {name: files[name] for name in sorted(files)[:-1]})),
     ("files [", "backup", "node dead", with_files(lambda _: {"kept/A-pmc.yaml": b""})),
     ("files [", "backup", "disk full", with_files(lambda _: {"kept": b""})),
+    ("given again", "restore", "node dead", lambda observed, base: replace(observed, again=(0, base.old))),
+    ("given again", "write", "request lost", lambda observed, base: replace(observed, again=(1, base.old | {NODE: base.new[NODE]}))),
     ("a file does not load", "backup", "malformed answers", lambda observed, _: replace(observed, loads=False)),
     ("what it lacks is not named", "backup", "malformed answers", without("1A00h.2")),
 ]
