@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::io::{IsTerminal as _, Write as _};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use od_formats::findings::json;
 use od_gen::condense;
@@ -293,9 +294,13 @@ fn write_out(bytes: &[u8]) -> u8 {
 
 /// The exit code when a result cannot be written; a reader that went away early is no error.
 pub(crate) fn not_printed(error: &std::io::Error) -> u8 {
+    // Once: a command that continues prints more.
+    static IS_REPORTED: AtomicBool = AtomicBool::new(false);
     if error.kind() == std::io::ErrorKind::BrokenPipe {
         return SUCCESS;
     }
-    anstream::eprintln!("error: cannot write to standard output: {error}");
+    if !IS_REPORTED.swap(true, Ordering::Relaxed) {
+        anstream::eprintln!("error: cannot write to standard output: {error}");
+    }
     ERRORS
 }

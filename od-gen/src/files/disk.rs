@@ -5,7 +5,7 @@ use std::hash::{BuildHasher as _, RandomState};
 use std::io::{self, Write as _};
 use std::path::Path;
 
-use super::parent;
+use super::{of_path, parent};
 
 /// Whether a file has to survive a power failure that follows at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,8 +74,28 @@ impl Disk for Real {
 /// How the temporary names begin. A random number follows, so that two runs never share one.
 pub(super) const TEMPORARY: &str = ".odgen-new-";
 
-/// Replaces a file as a whole: the contents get a temporary name in its folder first.
+/// Replaces a file as a whole: the contents get a temporary name in its folder first. A folder that was made for it is removed where
+/// that fails.
 pub(super) fn put(
+    target: &Path,
+    pieces: &[&[u8]],
+    like: Option<&Metadata>,
+    durability: Durability,
+    disk: &impl Disk,
+) -> io::Result<()> {
+    // Innermost first.
+    let missing: Vec<&Path> =
+        parent(target).ancestors().take_while(|folder| !of_path(folder).exists()).collect();
+    let done = put_in_folder(target, pieces, like, durability, disk);
+    if done.is_err() {
+        for folder in missing {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+    done
+}
+
+fn put_in_folder(
     target: &Path,
     pieces: &[&[u8]],
     like: Option<&Metadata>,

@@ -197,6 +197,18 @@ fn a_step_that_fails_leaves_whole_files_and_names_those_that_were_written() {
 }
 
 #[test]
+fn a_folder_that_was_made_for_a_file_that_cannot_be_written_is_gone() {
+    for at in 0..3 {
+        let scratch = Scratch::new("no-folder");
+        let disk = Faulty { left: Cell::new(at), after: After::Alive };
+        let files = set(&[("new/deep/a", "1")]);
+        let result = write_with(&scratch.0, &files, Existing::None, Durability::Now, &disk, &mut |_, _| {});
+        assert!(result.is_err());
+        assert!(scratch.0.exists() && !scratch.0.join("new").exists(), "{at}");
+    }
+}
+
+#[test]
 fn a_run_that_is_killed_at_any_step_leaves_whole_files_and_the_next_completes_them() {
     let (mut left, mut mixed, mut steps) = (0, 0, 0);
     for at in 0.. {

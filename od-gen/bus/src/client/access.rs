@@ -34,6 +34,8 @@ pub struct Client<B> {
     retries: u8,
     /// Writes that were begun.
     writes: usize,
+    /// Reads that succeeded only when they were repeated.
+    recovered: usize,
     restarts: Restarts,
 }
 
@@ -91,7 +93,7 @@ impl fmt::Display for AccessError {
         match self {
             Self::Refused(code) => write!(f, "the node refuses: {code}"),
             Self::Silent => f.write_str("the node does not answer"),
-            Self::Wrong(code) => write!(f, "the node's answer is none: {code}"),
+            Self::Wrong(code) => write!(f, "the node's answer is malformed: {code}"),
             Self::Short(bytes) => write!(f, "the node's answer has {bytes} bytes, and an answer has 8"),
             Self::Bus(error) => error.fmt(f),
         }
@@ -174,7 +176,14 @@ impl<S: Source> Transfer for firmware_glue::sdo::SdoWrite<S> {
 impl<B: Bus> Client<B> {
     /// A client on a bus, which waits so long for an answer, and repeats a read once.
     pub fn new(bus: B, timeout: Duration) -> Self {
-        Self { bus, timeout: micros(timeout), retries: RETRIES, writes: 0, restarts: Restarts::default() }
+        Self {
+            bus,
+            timeout: micros(timeout),
+            retries: RETRIES,
+            writes: 0,
+            recovered: 0,
+            restarts: Restarts::default(),
+        }
     }
 
     /// The same, which repeats a read so often when a frame was lost or broken.
@@ -186,6 +195,11 @@ impl<B: Bus> Client<B> {
     /// So many writes were begun.
     pub const fn writes(&self) -> usize {
         self.writes
+    }
+
+    /// The number of reads that succeeded only when they were repeated.
+    pub const fn recovered(&self) -> usize {
+        self.recovered
     }
 
     /// The bus.
@@ -236,7 +250,10 @@ impl<B: Bus> Client<B> {
             let (mut reading, request) = client.start_read(of_bus(id), Collected::default(), now);
             self.bus.send(&request)?;
             match self.finish(client.channel, &mut reading) {
-                Ok(last) => return Ok((reading.into_sink().0, last)),
+                Ok(last) => {
+                    self.recovered += usize::from(retries < self.retries);
+                    return Ok((reading.into_sink().0, last));
+                }
                 Err(AccessError::Wrong(_)) if late > 0 => late -= 1,
                 Err(error) if retries == 0 || error.is_of_entry() || matches!(error, AccessError::Bus(_)) => {
                     return Err(error);

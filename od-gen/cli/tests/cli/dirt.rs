@@ -1,9 +1,10 @@
 //! `odgen node` on a bus that loses and breaks frames.
 
 use std::fs;
-use std::process::Stdio;
+use std::process::{Command, Output, Stdio};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 use insta::assert_snapshot;
 
@@ -148,7 +149,7 @@ fn an_answer_without_a_size_is_as_long_as_its_type() {
 }
 
 #[test]
-fn a_write_without_an_answer_is_read_back_and_not_repeated() {
+fn a_write_without_an_answer_is_read_back_before_anything_else() {
     let sent = Arc::new(AtomicUsize::new(0));
     let counted = Arc::clone(&sent);
     let counts = Box::new(move |line: &str| {
@@ -339,49 +340,159 @@ fn each_node_of_a_machine_is_told_with_its_state() {
     assert_snapshot!("dirt-machine", said.concat());
 }
 
+/// Interrupts a command at a line, as Ctrl-C does.
+#[cfg(unix)]
+struct CtrlC(Arc<std::sync::Mutex<Option<u32>>>);
+
+#[cfg(unix)]
+impl CtrlC {
+    fn new() -> Self {
+        Self(Arc::default())
+    }
+
+    /// The command is interrupted at the first line that is one.
+    fn at(&self, mut is_it: impl FnMut(&str) -> bool + Send + 'static) -> Change {
+        let (process, mut is_done) = (Arc::clone(&self.0), false);
+        Box::new(move |line| {
+            if !is_done && is_it(line) {
+                is_done = true;
+                let id = loop {
+                    if let Some(id) = *process.lock().unwrap() {
+                        break id;
+                    }
+                    thread::yield_now();
+                };
+                let id = rustix::process::Pid::from_raw(i32::try_from(id).unwrap()).unwrap();
+                rustix::process::kill_process(id, rustix::process::Signal::INT).unwrap();
+            }
+            Some(line.to_owned())
+        })
+    }
+
+    /// Runs `odgen node`.
+    fn run(&self, bus: &Bus, arguments: &[&str]) -> Output {
+        let child = Command::new(env!("CARGO_BIN_EXE_odgen"))
+            .arg("node")
+            .args(arguments)
+            .args(["--slcan", &bus.relay.address])
+            .current_dir(&bus.scratch.0)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        *self.0.lock().unwrap() = Some(child.id());
+        child.wait_with_output().unwrap()
+    }
+}
+
 /// An interrupt in the middle of a mapping: the PDO is completed, and what comes behind it is not sent.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_lets_the_step_in_hand_come_to_its_end() {
-    use std::process::{Command, Stdio};
-
-    let command: Arc<std::sync::Mutex<Option<u32>>> = Arc::default();
-    let (process, mut sent) = (Arc::clone(&command), 0);
-    let from_nodes: Change = Box::new(move |line| {
-        // The node has taken the third parameter of the PDO: its mapping is without an entry.
-        sent += usize::from(line.starts_with("t5858600"));
-        if sent == 2 {
-            let id = loop {
-                if let Some(id) = *process.lock().unwrap() {
-                    break id;
-                }
-                std::thread::yield_now();
-            };
-            let id = rustix::process::Pid::from_raw(i32::try_from(id).unwrap()).unwrap();
-            rustix::process::kill_process(id, rustix::process::Signal::INT).unwrap();
-            sent += 1;
-        }
-        Some(line.to_owned())
+    let (command, mut taken) = (CtrlC::new(), 0);
+    // The node has taken the third parameter of the PDO: its mapping is without an entry.
+    let from_nodes = command.at(move |line| {
+        taken += usize::from(line.starts_with("t5858600"));
+        taken == 2
     });
     let bus = Bus::of("dirt-interrupt", crate::node::SENSOR, same(), from_nodes);
     let settings = ["1800.1=0x80000185", "1A00=0", "1A00.1=0x20010010", "1A00=1", "1800.1=0x185", "flow=7"];
-    let child = Command::new(env!("CARGO_BIN_EXE_odgen"))
-        .args(["node", "write", "heater.od.yaml", "--node", "5", "--yes", "--slcan", &bus.relay.address])
-        .args(settings)
-        .current_dir(&bus.scratch.0)
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    *command.lock().unwrap() = Some(child.id());
-    let output = child.wait_with_output().unwrap();
+    let output =
+        command.run(&bus, &[&["write", "heater.od.yaml", "--node", "5", "--yes"][..], &settings].concat());
     assert_eq!(code(&output), 130, "{}", stderr(&output));
     let said = stderr(&output);
     let unsent: Vec<&str> = said.lines().filter(|line| line.contains("not sent any more")).collect();
     // The signal may come a write later, and never before the PDO is whole.
     assert_eq!(unsent, ["note: not sent any more: 2001h flow"], "{said}");
+    assert!(!said.contains("not switched on again"), "{said}");
     let has = bus.node("read", &["1A00", "1800.1", "flow"]);
     assert!(has.contains("number of mapped entries = 1"), "{has}");
     assert!(has.contains("= 0x00000185") && has.contains("flow = 0"), "{has}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_while_values_are_read_is_reported() {
+    for arguments in [
+        &["backup", "heater.od.yaml", "--node", "5", "--out", "kept.yaml"][..],
+        &["compare", "heater.od.yaml", "--node", "5", "place.yaml"],
+    ] {
+        let command = CtrlC::new();
+        // A question about the identity of the node: values are read after it.
+        let bus = Bus::new("dirt-interrupt-read", command.at(|line| line.starts_with("t6058401810")), same());
+        bus.scratch.file("place.yaml", "od-parameters: 1\nparameters: {place: roof}\n");
+        let output = command.run(&bus, arguments);
+        assert_eq!(code(&output), 130, "{}", stderr(&output));
+        assert!(stderr(&output).contains("heater (node 5): interrupted before all was read"));
+        assert!(!bus.scratch.0.join("kept.yaml").exists());
+    }
+}
+
+/// That a node stores takes its time: its answer is waited for.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_while_a_node_stores_lets_it_answer() {
+    let command = CtrlC::new();
+    let bus = Bus::new("dirt-interrupt-store", command.at(|line| line.starts_with("t60582310")), same());
+    let output = command.run(&bus, &["store", "--node", "5", "--yes"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(stdout(&output).ends_with("node 5 has stored its parameters\n"));
+}
+
+/// The mapping of a PDO is lost on its way, while the PDO is switched off.
+#[test]
+fn a_pdo_is_not_left_off_by_a_lost_frame() {
+    let mapping = "t605823001A01";
+    let bus = Bus::of("dirt-pdo-restore", crate::node::SENSOR, loses(mapping), same());
+    bus.scratch.file(
+        "flow.yaml",
+        "od-parameters: 1\nparameters: {TPDO 1 mapping parameter: {mapped entry 1: 0x20010010}, TPDO 2 communication parameter: {COB-ID used by TPDO: 0x80000285}}\n",
+    );
+    let said = bus.node("restore", &["--yes", "flow.yaml"]);
+    assert!(
+        said.contains("does not have the value, which is written again") && said.ends_with("-> 0\n"),
+        "{said}"
+    );
+    let has = bus.node("read", &["1A00", "1800.1"]);
+    assert!(has.contains("= 0x20010010") && has.contains("= 0x00000185"), "{has}");
+    // What a user writes is not written again. That the PDO is off is said.
+    let bus = Bus::of("dirt-pdo-write", crate::node::SENSOR, loses(mapping), same());
+    let settings = ["1800.1=0x80000185", "1A00=0", "1A00.1=0x20010010", "1A00=1", "1800.1=0x185"];
+    let said = bus.node("write", &[&["--yes"], &settings[..]].concat());
+    let off = "note: switched off and not switched on again: 1800h.1 TPDO 1 communication parameter: COB-ID used by TPDO\n";
+    assert!(said.contains(off) && said.ends_with("-> 1\n"), "{said}");
+}
+
+/// One message is enough, and what was not done is said.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_reported_once() {
+    let bus = Bus::new("dirt-full", same(), same());
+    bus.scratch
+        .file("other.yaml", "od-parameters: 1\nparameters: {wanted temperature: 30.0 °C, place: roof}\n");
+    for (command, more, words) in [
+        ("compare", &["other.yaml"][..], ""),
+        (
+            "write",
+            &["--yes", "2000=30.0 °C"],
+            "note: nothing was sent, because what would be changed cannot be shown",
+        ),
+    ] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_odgen"))
+            .args(["node", command, "heater.od.yaml", "--node", "5", "--slcan", &bus.relay.address])
+            .args(more)
+            .current_dir(&bus.scratch.0)
+            .stdout(full)
+            .output()
+            .unwrap();
+        let said = stderr(&output);
+        assert_eq!(
+            (code(&output), said.matches("cannot write to standard output").count()),
+            (1, 1),
+            "{said}"
+        );
+        assert!(said.contains(words), "{said}");
+    }
 }

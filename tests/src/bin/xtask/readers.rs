@@ -162,6 +162,14 @@ pub(crate) fn values_of_nodes(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(Command::new(&python).args(arguments).arg(&odgen))
 }
 
+/// What `odgen node` does when something goes wrong in the middle of a command, as the chapter for operators shows it.
+pub(crate) fn faults(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let odgen = beside("odgen")?;
+    let arguments = ["tests/readers/fault_matrix.py", "--self-test", "--odgen"];
+    runner.run(Command::new(&python).args(arguments).arg(&odgen))
+}
+
 /// The Python that the readers are installed for, if that could be done.
 fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     let environment = root().join(VENV);

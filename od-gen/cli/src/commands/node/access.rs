@@ -11,9 +11,9 @@ use od_spec::{Commissioning, Layer, SettingNames, assign_layers, nearest, rule_c
 
 use super::args::{NodeReadArgs, NodeWriteArgs};
 use super::confirm::preview;
-use super::doubt::sent;
-use super::had::{had, values};
-use super::hand::{InHand, tell_unsent};
+use super::doubt::{Untaken, sent};
+use super::had::{had, tell_recovered, values};
+use super::hand::InHand;
 use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{ERRORS, SUCCESS};
 use crate::interrupt::Interrupt;
@@ -28,18 +28,19 @@ pub(super) fn read(args: &NodeReadArgs, report: &Report) -> Result<u8, u8> {
         ids.extend(entries(target.device, text).map_err(|diagnostic| report.refuse(diagnostic))?);
     }
     let mut client = reach(&args.node, target, report)?;
-    let mut code = SUCCESS;
+    let (mut code, recovered) = (SUCCESS, client.recovered());
     for id in ids {
         match target.read(&mut client, id) {
             Ok(bytes) => code = code.max(print(&format!("{}\n", line(target, id, &bytes)))),
             Err(error) => {
                 code = code.max(report.refuse(target.failed("read", id, &error)));
                 if error.is_of_node() {
-                    return Ok(code);
+                    break;
                 }
             }
         }
     }
+    tell_recovered(target, client.recovered() - recovered, report);
     Ok(code)
 }
 
@@ -106,7 +107,7 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
     let mut client = reach(&args.node, target, report)?;
     let written: BTreeSet<EntryId> = meant.iter().map(|(id, _)| *id).collect();
     let judged = judged(target.system, target.device, &written);
-    let before = had(&mut client, target, written.union(&judged).copied(), report)?;
+    let before = had(&mut client, target, written.union(&judged).copied(), None, report)?;
     before.tell_taken_for_default(target, &judged, report);
     let changes = before.changes(target, &meant);
     let mut now = Commissioning::of_node(target.device, target.id);
@@ -211,8 +212,9 @@ fn send<B: Bus>(
                         .help("correct the value"),
                 )
             }
-            Some(bytes) => match sent(client, target, *id, &bytes, report) {
+            Some(bytes) => match sent(client, target, *id, &bytes, Untaken::Reported, report) {
                 Ok(()) => {
+                    in_hand.wrote(*id, &bytes);
                     // A full disk behind standard output is no reason to leave a PDO switched off.
                     code = code.max(print(&format!("{}  written\n", line(target, *id, &bytes))));
                     None
@@ -223,9 +225,9 @@ fn send<B: Bus>(
         if let Some(diagnostic) = failed {
             let code = code.max(report.refuse(diagnostic));
             let unsent: Vec<EntryId> = meant.iter().skip(at + 1).map(|(id, _)| *id).collect();
-            tell_unsent(target, &unsent, report);
+            in_hand.tell_unsent(client, target, &unsent, report);
             return Err(code);
         }
     }
-    in_hand.end(target, report).map(|()| code)
+    in_hand.end(client, target, report).map(|()| code)
 }

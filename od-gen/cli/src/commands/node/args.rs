@@ -81,7 +81,7 @@ pub(crate) struct LinkArgs {
     #[arg(long, value_name = "MS", default_value_t = 1000)]
     pub timeout: u32,
 
-    /// So often an entry is read again when a frame was lost or broken; no write is repeated, but read back
+    /// So often an entry is read again when a frame was lost or broken; a write is never repeated before it is read back
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub retries: u8,
 

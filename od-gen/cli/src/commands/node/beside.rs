@@ -12,6 +12,7 @@ use od_spec::{Layer, ParameterValues, assign_layers};
 use super::had::{Had, had, values, words};
 use super::{Target, on_the_bus};
 use crate::exit::{DIFFERS, ERRORS, SUCCESS};
+use crate::interrupt::Interrupt;
 use crate::report::{Report, print, shown};
 use crate::settings::{ParameterFiles, parameter_files};
 
@@ -99,11 +100,12 @@ pub(super) fn told_differences(
 pub(super) fn compared<B: Bus>(
     client: &mut Client<B>,
     beside: &Beside<'_>,
+    interrupt: &Interrupt,
     report: &Report,
 ) -> Result<u8, u8> {
     let Beside { target, file, meant, .. } = beside;
     let target = *target;
-    let had = had(client, target, meant.keys().copied(), report)?;
+    let had = had(client, target, meant.keys().copied(), Some(interrupt), report)?;
     let (count, code) = told_differences(target, meant, &had, report);
     let not_in_file = kept(target.device).filter(|id| !meant.contains_key(id)).count();
     let differ = if count == 1 { "differs" } else { "differ" };

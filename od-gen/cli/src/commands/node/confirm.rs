@@ -28,6 +28,7 @@ impl ConfirmArgs {
     pub(super) fn ask(&self, about: &str, question: &str, report: &Report) -> Result<(), u8> {
         let code = print(about);
         if code != SUCCESS {
+            report.note("nothing was sent, because what would be changed cannot be shown");
             return Err(code);
         }
         if self.yes {

@@ -26,13 +26,23 @@ impl Presence {
     }
 }
 
-/// Writes a value, once. After an answer that was lost or broken, the value is read back, as a second write may do something else than
+/// What follows where the value that is read back shows that the node did not take a write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Untaken {
+    /// It is reported: what the user writes may be a command, of which the value does not show that it was carried out.
+    Reported,
+    /// It is written once more: what a parameter file holds is a value, and half of a PDO would be left.
+    WrittenAgain,
+}
+
+/// Writes a value. After an answer that was lost or broken, the value is read back first, as a second write may do something else than
 /// the first.
 pub(super) fn sent<B: Bus>(
     client: &mut Client<B>,
     target: Target<'_>,
     id: EntryId,
     bytes: &[u8],
+    untaken: Untaken,
     report: &Report,
 ) -> Result<(), Unwritten> {
     let Err(error) = client.write(target.id, id, bytes) else { return Ok(()) };
@@ -59,6 +69,14 @@ pub(super) fn sent<B: Bus>(
             let name = target.words().entry(id);
             report.note(&format!("{}{name}: {error}; read back, it has the value", target.mark()));
             Ok(())
+        }
+        Ok(_) if untaken == Untaken::WrittenAgain => {
+            let name = target.words().entry(id);
+            report.note(&format!(
+                "{}{name}: {error}; read back, it does not have the value, which is written again",
+                target.mark()
+            ));
+            sent(client, target, id, bytes, Untaken::Reported, report)
         }
         Ok(held) => {
             unwritten(Presence::Here, Some(format!("read back, it is {}", target.words().value(id, &held))))

@@ -4,10 +4,13 @@ use std::collections::BTreeSet;
 
 use od_bus::client::{AccessError, Bus, Client, value};
 use od_spec::ParameterValues;
+use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{EntryId, Value};
 
 use super::Target;
 use super::confirm::Change;
+use crate::exit::INTERRUPTED;
+use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::report::Report;
 
@@ -58,29 +61,67 @@ impl Had {
     }
 }
 
-/// Reads entries; what a node refuses is noted. The exit code after a message where nothing can be read any more.
+/// Reads entries; what a node refuses is noted. The exit code after a message where nothing can be read any more, or the user has
+/// interrupted a command that changes nothing.
 pub(super) fn had<B: Bus>(
     client: &mut Client<B>,
     target: Target<'_>,
     ids: impl IntoIterator<Item = EntryId>,
+    interrupt: Option<&Interrupt>,
     report: &Report,
 ) -> Result<Had, u8> {
     let ids: Vec<EntryId> = ids.into_iter().collect();
+    let recovered = client.recovered();
     let mut progress = Progress::new("read", "values", ids.len(), report.audience());
-    let had = had_of(client, target, &ids, &mut progress);
+    let had = had_of(client, target, &ids, interrupt, &mut progress);
     progress.clear();
-    had.map_err(|(id, error)| report.refuse(target.failed("read", id, &error)))
+    tell_recovered(target, client.recovered() - recovered, report);
+    had.map_err(|unread| match unread {
+        Unread::Failed(id, error) => report.refuse(target.failed("read", id, &error)),
+        Unread::Interrupted => {
+            let message = format!("{}: interrupted before all was read", target.name());
+            report.refuse(
+                Diagnostic::without_place(codes::ACCESS_FAILED, message)
+                    .help("nothing was changed; give the command again"),
+            );
+            INTERRUPTED
+        }
+    })
+}
+
+/// Notes that so many values were read only when they were asked for again: the bus is to be looked at.
+pub(super) fn tell_recovered(target: Target<'_>, count: usize, report: &Report) {
+    let was = match count {
+        0 => return,
+        1 => "was",
+        _ => "were",
+    };
+    report.note(&format!(
+        "{}{} {was} read only when asked for again: frames were lost or broken, or the node is slow",
+        target.mark(),
+        values(count)
+    ));
+}
+
+/// Why not all entries were read.
+enum Unread {
+    Failed(EntryId, AccessError),
+    Interrupted,
 }
 
 fn had_of<B: Bus>(
     client: &mut Client<B>,
     target: Target<'_>,
     ids: &[EntryId],
+    interrupt: Option<&Interrupt>,
     progress: &mut Progress,
-) -> Result<Had, (EntryId, AccessError)> {
+) -> Result<Had, Unread> {
     let mut had = Had { values: ParameterValues::new(), untold: Vec::new() };
     for (at, id) in ids.iter().copied().enumerate() {
         progress.show(at);
+        if interrupt.is_some_and(Interrupt::is_wanted) {
+            return Err(Unread::Interrupted);
+        }
         let Some(entry) = target.device.entry(id) else { continue };
         match target.read(client, id) {
             Ok(bytes) => match value(entry, &bytes) {
@@ -98,7 +139,7 @@ fn had_of<B: Bus>(
             Err(error) if !error.is_of_node() && !error.is_of_frames() => {
                 had.untold.push((id, error.to_string()));
             }
-            Err(error) => return Err((id, error)),
+            Err(error) => return Err(Unread::Failed(id, error)),
         }
     }
     Ok(had)

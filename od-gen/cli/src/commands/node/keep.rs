@@ -14,6 +14,7 @@ use super::restore::restored;
 use super::taken::{kept_line, parameters_of};
 use super::{Described, connect, reach};
 use crate::exit::SUCCESS;
+use crate::interrupt::Interrupt;
 use crate::output::{forced, keep};
 use crate::report::{Report, print};
 use crate::settings::ParameterFiles;
@@ -32,8 +33,9 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
         let message = format!("cannot write `{}`: it names no file", args.out.display());
         report.refuse(Diagnostic::without_place(codes::WRITE_FAILED, message).help("write the file's name"))
     })?;
+    let interrupt = Interrupt::noted();
     let mut client = reach(&args.node, target, report)?;
-    let written = parameters_of(&mut client, args, target, described.sources(), report)?;
+    let written = parameters_of(&mut client, args, target, described.sources(), &interrupt, report)?;
     target.has_started(&mut client, report)?;
     let artifact =
         Artifact { path: name.to_owned(), bytes: written.text.into_bytes(), purpose: String::new() };
@@ -50,8 +52,9 @@ pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
         return machine.compare(args, report);
     }
     let beside = beside_one(&described, args, report)?;
+    let interrupt = Interrupt::noted();
     let mut client = reach(&args.node, beside.target, report)?;
-    let code = compared(&mut client, &beside, report)?;
+    let code = compared(&mut client, &beside, &interrupt, report)?;
     beside.target.has_started(&mut client, report)?;
     Ok(code)
 }

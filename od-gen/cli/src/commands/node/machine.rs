@@ -18,7 +18,8 @@ use super::outcome::{Outcome, State, worse};
 use super::restore::restored;
 use super::taken::{kept_line, parameters_of};
 use super::{Target, connect, is_meant};
-use crate::exit::{DIFFERS, SUCCESS};
+use crate::exit::{DIFFERS, INTERRUPTED, SUCCESS};
+use crate::interrupt::Interrupt;
 use crate::output::{forced, keep};
 use crate::plant_file;
 use crate::report::{Report, node_id, print, shown};
@@ -105,10 +106,11 @@ impl Machine {
         let nodes = self.chosen(&args.node, &args.skip, report)?;
         let mut client = connect(&args.node.link, report)?;
         let (mut set, mut lines, mut code) = (Vec::new(), String::new(), SUCCESS);
+        let interrupt = Interrupt::noted();
         for node in nodes {
             let target = node.target();
             let written = is_meant(&mut client, &args.node, target, report)
-                .and_then(|()| parameters_of(&mut client, args, target, &self.sources, report));
+                .and_then(|()| parameters_of(&mut client, args, target, &self.sources, &interrupt, report));
             match written {
                 Ok(written) => {
                     lines.push_str(&kept_line(&args.out.join(node.file()), written.count, target));
@@ -116,6 +118,10 @@ impl Machine {
                     set.push(Artifact { path: node.file(), bytes, purpose: String::new() });
                 }
                 Err(failed) => code = worse(code, failed),
+            }
+            if interrupt.is_wanted() && code != SUCCESS {
+                report.note("no file was written");
+                return Err(code);
             }
         }
         for target in self.chosen(&args.node, &args.skip, report)?.into_iter().map(Node::target) {
@@ -138,10 +144,14 @@ impl Machine {
     pub(super) fn compare(&self, args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
         let all = self.files(args, report)?;
         let mut client = connect(&args.node.link, report)?;
-        let mut outcomes = Vec::new();
+        let (interrupt, mut outcomes) = (Interrupt::noted(), Vec::new());
         for beside in &all {
+            if interrupt.is_wanted() {
+                outcomes.push(Outcome::untouched(beside.target, INTERRUPTED, State::NotDone));
+                continue;
+            }
             let code = is_meant(&mut client, &args.node, beside.target, report)
-                .and_then(|()| compared(&mut client, beside, report))
+                .and_then(|()| compared(&mut client, beside, &interrupt, report))
                 .unwrap_or_else(|code| code);
             outcomes.push(Outcome::after(beside.target, code, 0));
         }

@@ -11,9 +11,9 @@ use od_spec::{Assigned, Commissioning, assign_layers, rule_codes};
 use super::args::NodeRestoreArgs;
 use super::beside::{Beside, shown_errors, told_differences};
 use super::confirm::{Change, preview};
-use super::doubt::{Presence, Unwritten, sent};
+use super::doubt::{Presence, Untaken, Unwritten, sent};
 use super::had::{Had, had, values, words};
-use super::hand::{InHand, pdo_of, tell_unsent};
+use super::hand::{InHand, pdo_of};
 use super::outcome::{Outcome, State, worse};
 use super::{Target, is_meant, on_the_bus};
 use crate::exit::{ERRORS, INTERRUPTED, SUCCESS};
@@ -128,7 +128,7 @@ fn planned<'b, 'a, B: Bus>(
     let asked_for = judged(target.system, target.device, &written_ids);
     let ids: BTreeSet<EntryId> =
         kept(target.device).chain(written_ids).chain(asked_for.iter().copied()).collect();
-    let before = had(client, target, ids, report)?;
+    let before = had(client, target, ids, None, report)?;
     // What the file does not set stays as the node has it, and rules look at that.
     before.tell_taken_for_default(target, &asked_for, report);
     let mut now = Commissioning::of_node(target.device, target.id);
@@ -170,7 +170,7 @@ fn carried_out<B: Bus>(
     let Beside { target, file, meant, .. } = plan.beside;
     let target = *target;
     let code = written(client, target, &plan.writes, interrupt, report)?;
-    let after = had(client, target, meant.keys().copied(), report)?;
+    let after = had(client, target, meant.keys().copied(), None, report)?;
     let (count, unread) = told_differences(target, meant, &after, report);
     let code = code.max(unread);
     if count > 0 {
@@ -265,15 +265,17 @@ fn written<B: Bus>(
     for (at, write) in writes.iter().enumerate() {
         if held_back.has(write.id) {
             let name = target.words().entry(write.id);
-            report.note(&format!("not sent, as it belongs with what was refused: {name}"));
+            let mark = target.mark();
+            report.note(&format!("{mark}not sent, as it belongs with what was refused: {name}"));
             held_back.add(write.id);
             continue;
         }
         if !in_hand.takes(write.id) {
             continue;
         }
-        match sent(client, target, write.id, &write.bytes, report) {
+        match sent(client, target, write.id, &write.bytes, Untaken::WrittenAgain, report) {
             Ok(()) => {
+                in_hand.wrote(write.id, &write.bytes);
                 let line = super::access::line(target, write.id, &write.bytes);
                 code = code.max(print(&format!("{}{line}  written\n", target.mark())));
             }
@@ -282,11 +284,12 @@ fn written<B: Bus>(
                 held_back.add(write.id);
                 if node == Presence::Gone {
                     let unsent: Vec<EntryId> = writes.iter().skip(at + 1).map(|write| write.id).collect();
-                    tell_unsent(target, &unsent, report);
+                    in_hand.tell_unsent(client, target, &unsent, report);
                     return Err(code);
                 }
             }
         }
     }
-    in_hand.end(target, report).map(|()| code)
+    in_hand.tell_left_off(client, target, &held_back.first, report);
+    in_hand.end(client, target, report).map(|()| code)
 }

@@ -8,6 +8,7 @@ use super::args::NodeGroupArgs;
 use super::network::numbers;
 use super::reach::{AnyBus, not_asked};
 use super::{Described, connect, has_started, no_node_id, reach};
+use crate::interrupt::Interrupt;
 use crate::report::{Report, node_id, print};
 
 /// What is said of a command whose answer was lost or broken.
@@ -73,6 +74,8 @@ fn sign(
         report,
     )?;
     has_started(&mut client, node, &name, report)?;
+    // What the node was told to do is waited for.
+    let _interrupt = Interrupt::noted_with_hangup();
     client.write(node, id, &signature).map_err(|error| {
         let message = format!("{name} does not {what} ({id}): {error}");
         let diagnostic = Diagnostic::without_place(codes::ACCESS_FAILED, message);

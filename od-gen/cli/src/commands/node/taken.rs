@@ -11,6 +11,7 @@ use super::Target;
 use super::args::NodeBackupArgs;
 use super::had::{had, values};
 use super::reach::SERIAL_NUMBER;
+use crate::interrupt::Interrupt;
 use crate::report::{Report, shown};
 
 /// `  kept.yaml  24 values of valve (node 5)`.
@@ -24,9 +25,10 @@ pub(super) fn parameters_of<B: Bus>(
     args: &NodeBackupArgs,
     target: Target<'_>,
     sources: &SourceMap,
+    interrupt: &Interrupt,
     report: &Report,
 ) -> Result<ParameterText, u8> {
-    let had = had(client, target, kept(target.device), report)?;
+    let had = had(client, target, kept(target.device), Some(interrupt), report)?;
     let mut node = Commissioning::of_node(target.device, target.id);
     // Nobody has asked the adapter.
     node.bit_rate = args.node.link.bit_rate.unwrap_or(0);
