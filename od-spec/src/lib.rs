@@ -76,7 +76,7 @@ pub use parameters::{
     is_parameter_file, parameter_file, settings, settings_of_map,
 };
 pub use parts::part_of;
-pub use text::{ascii, encoding, visible};
+pub use text::{ascii, encoding, markdown, visible};
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

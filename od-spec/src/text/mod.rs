@@ -3,4 +3,5 @@
 pub mod ascii;
 pub mod encoding;
 mod fit;
+pub mod markdown;
 pub mod visible;
