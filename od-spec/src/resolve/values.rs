@@ -299,7 +299,7 @@ fn steps<'a>(
             span,
             format!("`{}` is not the symbol of unit `{}`", shorten(symbol), unit.name),
         );
-        let help = match [unit.symbol.as_str(), &base].into_iter().find_map(|own| look_alike(symbol, own)) {
+        let help = match [unit.symbol.as_str(), base].into_iter().find_map(|own| look_alike(symbol, own)) {
             Some((found, own)) => {
                 format!("write U+{:04X} (`{own}`) instead of U+{:04X}", u32::from(own), u32::from(found))
             }
