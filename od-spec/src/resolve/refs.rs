@@ -329,7 +329,8 @@ fn find(
         let message = format!("there is no entry named `{}`", shorten(text));
         let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, reference.span, message);
         let known = devices.iter().flat_map(|names| names.all());
-        let meant = diagnostics.suggestions.nearest(text, known);
+        let member = member_called(text, devices.iter().flat_map(|names| names.all()));
+        let meant = member.or_else(|| diagnostics.suggestions.nearest(text, known));
         diagnostics.push(match (broken.owners_of_name(text), lexical::with_0x(text), meant) {
             (Some(owners), ..) => diagnostic.help(owners.help()),
             (None, Some(index), _) => diagnostic.did_you_mean(&index),
@@ -340,6 +341,11 @@ fn find(
         });
     }
     found
+}
+
+/// The member of an object that has this name: `record.member`.
+pub(crate) fn member_called<'a>(text: &str, mut known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    known.find(|name| name.rsplit_once('.').is_some_and(|(_, member)| member.eq_ignore_ascii_case(text)))
 }
 
 /// The names of devices, each worked out when it is asked for.
@@ -470,7 +476,9 @@ impl<'a> Lookup<'a> {
         match self.alike(names).get(&text.to_lowercase()) {
             Some(Some(id)) => Ok(*id),
             _ => Err(NotFound::Unknown {
-                nearest: suggestions.nearest(text, names.all()).map(ToOwned::to_owned),
+                nearest: member_called(text, names.all())
+                    .or_else(|| suggestions.nearest(text, names.all()))
+                    .map(ToOwned::to_owned),
             }),
         }
     }
