@@ -268,6 +268,18 @@ codes! {
         )]
     NO_CHANGE Warning "OD0865" "an erratum that changes nothing":
         "An erratum says what the manual prints and how it is read. Here both are equal, so that nobody learns what is wrong with the manual. Correct one of them, or remove the erratum."
+    DISGUISED Warning "OD0866" "a word that is not what it looks like":
+        "Letters of the Cyrillic and the Greek script look like Latin ones, and some characters have no width. A word with one of them looks as it should, but it is another word: a search does not find it, a reference to it does not match, and an EDS, which is ASCII, has other letters. They come from texts that were copied, or from a keyboard that was switched. `odgen fix` writes the Latin letters. Words that are Cyrillic or Greek as a whole are not meant."
+        [Example::new(
+            "objects:\n  0x2000: {name: sp\u{435}ed, type: unsigned8, access: ro}",
+            "objects:\n  0x2000: {name: speed, type: unsigned8, access: ro}"
+        )]
+    ISSUE_ORDER Warning "OD0867" "an issue of the manual out of order":
+        "`history:` lists the issues of the manual from the first to the last, or the other way round, and `revision:` says which one the specification is of. A date that goes back is a wrong digit, or the issue stands in the wrong place."
+        [Example::new(
+            "revision: {number: \"1.1\", date: 2020-05-27}\nhistory: [{number: \"1.0\", date: 2021-02-01}, {number: \"1.1\", date: 2020-05-27}]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro}",
+            "revision: {number: \"1.1\", date: 2020-05-27}\nhistory: [{number: \"1.0\", date: 2019-02-01}, {number: \"1.1\", date: 2020-05-27}]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro}"
+        )]
     STACK_DIFFERS Warning "OD0860" "something that the stack wants set up":
         "CANopenNode has a configuration of its own, and takes some things otherwise than the dictionary says. The files are made and compile; the message tells what is to be done in the project that takes them, or what is different on the bus."
     COB_ID_OF_OTHER_NODE Warning "OD0861" "a COB-ID of the node-ID that a file is for":

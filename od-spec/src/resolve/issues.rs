@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::ast::{EntryDecl, Name, ObjectDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
-use crate::source::Span;
+use crate::model::Date;
+use crate::source::{Span, Spanned};
 
 pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
     let mut listed: BTreeMap<&str, Span> = BTreeMap::new();
@@ -19,6 +20,7 @@ pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
             );
         }
     }
+    check_order(root, diagnostics);
     // Without a history, only the newest issue is known.
     if listed.is_empty() {
         return;
@@ -36,6 +38,33 @@ pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
             }
             None => diagnostic.help("add it to `history:`, or correct the number"),
         });
+    }
+}
+
+/// Checks that the dates of the history rise, or fall, all the way, and that no issue is younger than the newest one.
+fn check_order(root: &Spec, diagnostics: &mut Diagnostics) {
+    let dates: Vec<&Spanned<Date>> = root.history.iter().filter_map(|issue| issue.date.as_ref()).collect();
+    let steps = || dates.windows(2).filter(|pair| pair[0].value != pair[1].value);
+    let rises = |pair: &[&Spanned<Date>]| pair[0].value < pair[1].value;
+    if let Some(first) = steps().next()
+        && let Some(pair) = steps().find(|pair| rises(pair) != rises(first))
+    {
+        diagnostics.push(
+            Diagnostic::new(codes::ISSUE_ORDER, pair[1].span, "the issues are out of order here")
+                .with(pair[0].span, "before it")
+                .help("correct the date, or put the issues into their order"),
+        );
+        return;
+    }
+    let newest = root.revision.as_ref().and_then(|issue| issue.date.as_ref());
+    if let Some(newest) = newest
+        && let Some(younger) = dates.iter().find(|date| date.value > newest.value)
+    {
+        diagnostics.push(
+            Diagnostic::new(codes::ISSUE_ORDER, younger.span, "an issue younger than the specification")
+                .with(newest.span, "the date of the specification")
+                .help("correct one of the dates"),
+        );
     }
 }
 

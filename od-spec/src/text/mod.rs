@@ -4,5 +4,6 @@ pub mod ascii;
 pub mod encoding;
 pub mod file_name;
 mod fit;
+pub(crate) mod look_alike;
 pub mod markdown;
 pub mod visible;

@@ -15,9 +15,11 @@ pub fn turning(text: &str) -> impl Iterator<Item = (usize, char)> {
     at.filter_map(|at| Some((at, text[at..].chars().next().filter(|c| turns_text(*c))?)))
 }
 
-/// Whether a character is obeyed, and not shown: by a terminal, by who reads lines, or by who lays out text.
+/// Whether a character is obeyed, and not shown: by a terminal, by who reads lines, or by who lays out text; or has no width.
 pub fn is_hidden(c: char) -> bool {
-    c.is_control() || turns_text(c) || matches!(c, '\u{2028}' | '\u{2029}')
+    c.is_control()
+        || turns_text(c)
+        || matches!(c, '\u{200B}' | '\u{2028}' | '\u{2029}' | '\u{2060}' | '\u{FEFF}')
 }
 
 /// A text on one line in which everything is seen: `\n`, `\u{1b}`.

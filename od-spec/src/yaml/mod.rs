@@ -8,11 +8,13 @@ pub(crate) mod gaps;
 mod lenient;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use granit_parser::{Event, Parser, ScalarStyle};
 
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::source::{FileId, SourceFile, Span, Spanned};
+use crate::text::look_alike::{Disguise, disguised};
 use crate::visible::turning;
 
 pub use lenient::lenient;
@@ -183,6 +185,7 @@ pub(crate) fn parse_as(
     diagnostics: &mut Diagnostics,
 ) -> Option<Node> {
     refuse_turned_text(id, file.text(), diagnostics);
+    report_disguised_words(id, file.text(), diagnostics);
     let options = granit_parser::options! { emit_comments: false, emit_unresolved_aliases: true };
     let mut builder = Builder {
         id,
@@ -224,10 +227,37 @@ pub(crate) fn parse_as(
 /// Refuses characters that make the text around them look like another, wherever they stand, in comments, too.
 fn refuse_turned_text(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
     for (at, c) in turning(text) {
-        let place = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
-        let span = Span { file: id, start: place(at), end: place(at + c.len_utf8()) };
+        let span = span_in(id, at..at + c.len_utf8());
         diagnostics.push(turned(span, c).edit(span, ""));
     }
+}
+
+/// Reports words in which characters look like others, or like nothing.
+fn report_disguised_words(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
+    for found in disguised(text) {
+        let (code, word) = (u32::from(found.character), shorten(found.word));
+        let (message, help) = match found.disguise {
+            Disguise::Latin(letter) => (
+                format!("`{word}` has U+{code:04X}, which looks like `{letter}`"),
+                "write the Latin letter; a name with another one is another name",
+            ),
+            Disguise::Invisible => (
+                format!("`{word}` has U+{code:04X}, which cannot be seen"),
+                "remove the character; a name with it is another name",
+            ),
+        };
+        let (start, end) = (found.start, found.start + found.word.len());
+        diagnostics.push(
+            Diagnostic::new(codes::DISGUISED, span_in(id, start..end), message)
+                .help(help)
+                .edit(span_in(id, start..end), found.plain()),
+        );
+    }
+}
+
+fn span_in(file: FileId, range: Range<usize>) -> Span {
+    let place = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+    Span { file, start: place(range.start), end: place(range.end) }
 }
 
 fn turned(span: Span, c: char) -> Diagnostic {
