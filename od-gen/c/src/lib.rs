@@ -53,11 +53,11 @@ pub fn artifacts<'a>(
         let device = decided(system, device, &C);
         let plan = plan(system, &device, &C, diagnostics);
         // What follows from a plan that is not whole would be reported once more.
-        if diagnostics.count().0 == before {
+        if diagnostics.errors_found() == before {
             set.extend(of_device(&plan, provenance, kinds, &mut register, diagnostics));
         }
     }
-    if diagnostics.count().0 == before { set } else { Vec::new() }
+    if diagnostics.errors_found() == before { set } else { Vec::new() }
 }
 
 /// What the files of all devices include, each once however many there are.
