@@ -46,7 +46,7 @@ pub fn artifacts<'a>(
     if kinds.is_empty() {
         return Vec::new();
     }
-    let (before, _) = diagnostics.count();
+    let before = diagnostics.errors_found();
     let mut register = Register::default();
     let mut set = Vec::new();
     for device in devices {
