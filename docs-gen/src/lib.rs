@@ -18,7 +18,6 @@ use od_spec::model::System;
 
 pub use options::Options;
 pub use printed::{Difference, PrintedTable, TableIndex};
-pub use templates::markdown::escape as escape_markdown;
 pub use templates::{Format, Page, TemplateError, Templates};
 pub use view::Context;
 
@@ -50,6 +49,7 @@ pub fn context(system: &System, options: &Options) -> Context {
         warnings: source.warnings(&chapters),
         chapters,
         appendices,
+        entries: source.devices.iter().map(|device| device.entries().count()).sum(),
     }
 }
 

@@ -24,14 +24,17 @@ pub fn condense(path: &Path, compiled: &mut Compiled) -> Option<String> {
                 if stays { &mut stay } else { &mut short }.push(one.clone());
             }
             compiled.diagnostics = stay;
-            condensed(&path.to_string_lossy(), &short)
+            condensed(&path.to_string_lossy(), CHECK, &short)
         }
     }
 }
 
-/// One line for all messages about an EDS or DCF, if there are any.
-pub fn condensed(path: &str, diagnostics: &Diagnostics) -> Option<String> {
+/// The command that shows all that there is to say of a file.
+pub const CHECK: &str = "odgen check";
+
+/// One line for all messages about a file, which a command shows whole, if there are any.
+pub fn condensed(path: &str, check: &str, diagnostics: &Diagnostics) -> Option<String> {
     let counts = summary(diagnostics);
     let path = visible(path);
-    (!counts.is_empty()).then(|| format!("{path}: {counts}; `odgen check {path}` shows them"))
+    (!counts.is_empty()).then(|| format!("{path}: {counts}; `{check} {path}` shows them"))
 }

@@ -21,7 +21,7 @@ pub use artifact::{Artifact, OutputFile, Pool, SharedFile};
 #[cfg(feature = "format")]
 pub use builder::{BuildError, Builder};
 pub use expand::{Expansion, expand};
-pub use foreign::{condense, condensed};
+pub use foreign::{CHECK, condense, condensed};
 pub use provenance::Provenance;
 
 /// The README's examples compile and run.

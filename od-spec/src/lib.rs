@@ -78,7 +78,7 @@ pub use parameters::{
     is_parameter_file, parameter_file, settings, settings_of_map,
 };
 pub use parts::part_of;
-pub use text::{ascii, encoding, file_name, visible};
+pub use text::{ascii, encoding, file_name, markdown, visible};
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

@@ -3,8 +3,8 @@
 
     bridge.py --odgen target/debug/odgen [--self-test]
 
-A node of python-canopen is on a virtual bus of python-can: `odgen node` scans, reads, writes, backs up and loads a program through
-the bridge; the node refuses blocks, and its memory is busy for a while. Then `odgen serve` is the adapter: the bridge is a process,
+A node of python-canopen is on a virtual bus of python-can: `odgen node` makes a first specification of it, scans, reads, writes,
+backs up and loads a program through the bridge; the node refuses blocks, and its memory is busy for a while. Then `odgen serve` is the adapter: the bridge is a process,
 and python-canopen reads the program back, past the bridge. Then lines of SLCAN, hosts that misbehave, bit rates, adapters that are
 not there or are unplugged. `--self-test` also breaks the bridge, and wants that to be noticed. Exit code 1 when anything differs.
 """
@@ -171,6 +171,22 @@ class Commands:
         done = subprocess.run(whole, cwd=self.folder, capture_output=True, text=True, check=False, timeout=3 * PATIENCE)
         return done.returncode, done.stdout + done.stderr
 
+    def specify(self, trial: Trial, port: int, eds: Path) -> None:
+        """A specification of a node that no file describes, and its EDS beside the one that the node has."""
+        scan = ["node", "scan", "--write-spec", "first.od.yaml", "--node", str(NODE), "--range", "2000h..2010h"]
+        link = ["--slcan", f"tcp:127.0.0.1:{port}", "--timeout", "5000"]
+        for command in ([*scan, *link], ["check", "first.od.yaml"], ["build", "first.od.yaml", "--out", "first"]):
+            done = subprocess.run([self.odgen, *command], cwd=self.folder, capture_output=True, text=True, check=False, timeout=3 * PATIENCE)
+            trial.that(f"{command[0]} of a first specification", (done.returncode, "" if done.returncode == 0 else done.stderr), (0, ""))
+            if done.returncode:
+                return
+        made, own = (entries_of(canopen.import_od(str(file), NODE)) for file in (self.folder / "first/eds/first.eds", eds))
+        trial.that("entries of a first specification", sorted(made), sorted(own))
+        for place, entry in own.items():
+            found = made.get(place)
+            if found and entry.data_type in canopen.objectdictionary.INTEGER_TYPES:
+                trial.that(f"length of {entry.name}", len(found), len(entry))
+
     def look(self, trial: Trial, port: int, *more: str) -> None:
         """What everybody does with a node."""
         for name, arguments, expected in (
@@ -187,11 +203,17 @@ class Commands:
             trial.has(name, text, expected)
 
 
+def entries_of(dictionary: canopen.ObjectDictionary) -> dict[tuple[int, int], canopen.objectdictionary.ODVariable]:
+    parts = (one if hasattr(one, "subindices") else {0: one} for one in dictionary.values())
+    return {(entry.index, entry.subindex): entry for part in parts for entry in part.values()}
+
+
 def check_own_node(trial: Trial, commands: Commands, eds: Path) -> None:
     """A node of python-canopen, on a virtual bus."""
     node = PumpNode("pump", eds)
     try:
         with bridge("pump") as (port, *_):
+            commands.specify(trial, port, eds)
             commands.look(trial, port)
             trial.that("commands for the program", node.commands, [0, 3, 1])
             trial.that("the program in the node", bytes(node.node.get_data(0x1F50, 1)), PROGRAM)

@@ -20,6 +20,9 @@ const PAGES: [&str; 10] = [
     "tables",
 ];
 
+/// Longest name of a page. File systems take 255 bytes, and some of them whole paths of 260.
+const LONGEST_PAGE: usize = 80;
+
 /// A chapter and the page that it becomes where pages are small.
 #[derive(Debug, Clone)]
 pub(crate) struct ChapterPlan {
@@ -52,7 +55,7 @@ impl Outline {
                 Some(chapter) if level > 1 => chapter.sections.push(SectionPlan { position, level }),
                 _ => {
                     let title = section.title.get(system.language()).unwrap_or_default();
-                    let page = slug(&format!("{} {title}", section.number));
+                    let page = short(&slug(&format!("{} {title}", section.number))).to_owned();
                     let is_taken = |name: &str| {
                         PAGES.contains(&name)
                             || system.device(name).is_some()
@@ -183,4 +186,10 @@ pub(crate) const fn kind_of(content: &TableContent) -> &'static str {
         TableContent::Glossary => "glossary",
         TableContent::History => "history",
     }
+}
+
+/// A name of a page, which is ASCII, as file systems take it: whole words, if it has several.
+fn short(page: &str) -> &str {
+    let Some(cut) = page.get(..=LONGEST_PAGE) else { return page };
+    cut.rsplit_once('-').map_or(&cut[..LONGEST_PAGE], |(words, _)| words)
 }

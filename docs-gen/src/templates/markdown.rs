@@ -3,43 +3,15 @@
 use std::fmt::Write as _;
 
 use minijinja::{Error, Value};
+use od_spec::markdown::{escape, paragraph as paragraph_of};
 
 /// Columns are filled up to this width, so that a table stands in columns as plain text, too.
 const WIDEST: usize = 32;
 
-/// A text on one line, with the signs escaped that Markdown would read as its own.
-pub fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    let mut before = ' ';
-    let mut signs = text.chars().peekable();
-    while let Some(sign) = signs.next() {
-        let after = signs.peek().copied().unwrap_or(' ');
-        let special = match sign {
-            '\\' | '`' | '*' | '[' | ']' | '|' | '~' => true,
-            // `<` begins a tag, `&` an entity, only before a letter or the like.
-            '<' => after.is_alphabetic() || matches!(after, '/' | '!' | '?'),
-            '&' => after.is_alphanumeric() || after == '#',
-            // Inside a word it is no emphasis.
-            '_' => !(before.is_alphanumeric() && after.is_alphanumeric()),
-            _ => false,
-        };
-        if special {
-            escaped.push('\\');
-        }
-        escaped.push(if sign.is_control() { ' ' } else { sign });
-        before = sign;
-    }
-    escaped
-}
-
 /// A cell as a paragraph of its own: what would begin a heading, a list or a quotation is escaped.
 pub(crate) fn paragraph(contents: &Value, page: &str) -> Result<String, Error> {
     let text = cell(contents, page)?.replace("<br>", "\\\n");
-    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
-    if digits > 0 && text[digits..].starts_with(['.', ')']) {
-        return Ok(format!("{}\\{}", &text[..digits], &text[digits..]));
-    }
-    Ok(if text.starts_with(['#', '>', '-', '+', '=']) { format!("\\{text}") } else { text })
+    Ok(paragraph_of(text))
 }
 
 /// A cell on a page: links to the same page are short.
@@ -154,16 +126,4 @@ pub(crate) fn table(grid: &Value, page: &str) -> Result<String, Error> {
         }
     }
     Ok(text)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::escape;
-
-    #[test]
-    fn only_signs_that_markdown_reads_are_escaped() {
-        assert_eq!(escape("1 < 2, a <b> c & d &amp; e"), "1 < 2, a \\<b> c & d \\&amp; e");
-        assert_eq!(escape("PMM_controlword _x_ a*b|c"), "PMM_controlword \\_x\\_ a\\*b\\|c");
-        assert_eq!(escape("r(w) 0..3 [1]"), "r(w) 0..3 \\[1\\]");
-    }
 }

@@ -4,7 +4,8 @@
 //! `device.EXT` once per device, `appendix.EXT` once per appendix, and any other file once, under its own name. Files whose
 //! name begins with `_` are only included by others.
 
-pub(crate) mod markdown;
+mod bounds;
+mod markdown;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -13,7 +14,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
-use minijinja::{Environment, UndefinedBehavior, context};
+use minijinja::{Environment, ErrorKind, UndefinedBehavior, context};
 
 use crate::view::Context;
 
@@ -189,7 +190,7 @@ impl Templates {
                 wanted.push((name, path, context! { ..Value::from(item), ..variables }));
             }
         }
-        let pages = self.pages(&wanted)?;
+        let pages = self.pages(&wanted, bounds::steps(context))?;
         let mut seen = BTreeSet::new();
         if let Some(twice) = pages.iter().find(|page| !seen.insert(page.path.to_lowercase())) {
             return Err(TemplateError::without_place(format!(
@@ -202,15 +203,26 @@ impl Templates {
 
     /// Prints pages on all cores, each a template with its file and variables, and gives them in their order. Of several that
     /// cannot be printed, the first counts.
-    fn pages(&self, wanted: &[(&str, String, Value)]) -> Result<Vec<Page>, TemplateError> {
+    fn pages(&self, wanted: &[(&str, String, Value)], steps: u64) -> Result<Vec<Page>, TemplateError> {
+        let mut environment = self.environment.clone();
+        environment.set_fuel(Some(steps));
         let cores = std::thread::available_parallelism().map_or(1, usize::from).min(wanted.len().max(1));
         let next = AtomicUsize::new(0);
+        let room = bounds::Room::new(bounds::OUTPUT);
         let print = || {
             let mut printed = Vec::new();
             loop {
                 let position = next.fetch_add(1, Ordering::Relaxed);
                 let Some((template, path, variables)) = wanted.get(position) else { return printed };
-                printed.push((position, self.page(template, path.clone(), variables.clone())));
+                let mut output = room.output();
+                let page = environment
+                    .get_template(template)
+                    .and_then(|template| {
+                        template.render_captured_to(variables.clone(), &mut output).map(drop)
+                    })
+                    .map(|()| Page { path: path.clone(), text: without_commands(output.into_text()) })
+                    .map_err(|error| self.explain(template, &error));
+                printed.push((position, page));
             }
         };
         let printed: BTreeMap<usize, Result<Page, TemplateError>> = std::thread::scope(|scope| {
@@ -222,14 +234,6 @@ impl Templates {
             printed.into_iter().collect()
         });
         printed.into_values().collect()
-    }
-
-    fn page(&self, template: &str, path: String, variables: Value) -> Result<Page, TemplateError> {
-        let printed = self.environment.get_template(template).and_then(|template| template.render(variables));
-        match printed {
-            Ok(text) => Ok(Page { path, text: without_commands(text) }),
-            Err(error) => Err(self.explain(template, &error)),
-        }
     }
 
     fn explain(&self, template: &str, error: &minijinja::Error) -> TemplateError {
@@ -244,6 +248,12 @@ impl Templates {
         // Places may lie inside a character.
         let range = boundary(&source, range.start)..boundary(&source, range.end);
         let message = match inner.detail() {
+            _ if inner.kind() == ErrorKind::OutOfFuel => {
+                "the page takes more steps than its contents can need".to_owned()
+            }
+            _ if inner.kind() == ErrorKind::WriteFailure => {
+                std::error::Error::source(inner).map_or_else(|| inner.kind().to_string(), ToString::to_string)
+            }
             Some(detail) => format!("{}: {detail}", inner.kind()),
             None => inner.kind().to_string(),
         };
@@ -296,7 +306,7 @@ fn environment() -> Environment<'static> {
         environment.set_syntax(syntax);
     }
     environment.add_filter("cut", cut);
-    environment.add_filter("md", |text: &str| markdown::escape(text));
+    environment.add_filter("md", |text: &str| od_spec::markdown::escape(text));
     environment.add_filter("md_cell", |cell: &Value, page: &str| markdown::cell(cell, page));
     environment.add_filter("md_paragraph", |cell: &Value, page: &str| markdown::paragraph(cell, page));
     environment.add_filter("md_table", |grid: &Value, page: &str| markdown::table(grid, page));

@@ -45,6 +45,9 @@ pub struct Context {
     pub warnings: Option<Table>,
     /// Tables over the whole system: error codes, aliases, units, storage, constraints, errata, index of tables.
     pub appendices: Vec<Appendix>,
+    /// Number of entries of all devices, which bounds the work of templates.
+    #[serde(skip)]
+    pub entries: usize,
 }
 
 /// Title page.

@@ -15,12 +15,20 @@ const PRE_OPERATIONAL: u8 = 127;
 /// NMT command: to pre-operational.
 const ENTER_PRE_OPERATIONAL: u8 = 128;
 
+/// The identifiers of emergency messages begin here, and those of SDO requests here.
+const EMERGENCY: u16 = 0x80;
+const SDO_REQUEST: u16 = 0x600;
+/// The class of communication errors, in the upper byte of an error code.
+const COMMUNICATION: u8 = 0x81;
+/// 1029h, which says what a node does at an error.
+const ERROR_BEHAVIOUR: u16 = 0x1029;
+
 /// How a node shows that it has started again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Restart {
     /// By its boot-up message.
     BootUp,
-    /// Its heartbeat is pre-operational again, and no command was heard: its boot-up message was lost.
+    /// Its heartbeat is pre-operational again, and neither a command nor an error explains it: its boot-up message was lost.
     FellBack,
 }
 
@@ -29,8 +37,10 @@ pub enum Restart {
 pub(crate) struct Restarts {
     /// The last state of each node.
     states: BTreeMap<u8, u8>,
-    /// Nodes that were commanded to become pre-operational, and have not shown it yet.
-    commanded: BTreeSet<u8>,
+    /// Nodes that have a reason to become pre-operational, and have not shown it yet: a command, or another error behaviour (1029h).
+    expected: BTreeSet<u8>,
+    /// Nodes with a communication error, at which they may become pre-operational (CiA 301, 1029h.1).
+    in_error: BTreeSet<u8>,
     found: BTreeMap<u8, Restart>,
 }
 
@@ -40,20 +50,37 @@ impl Restarts {
         let id = frame.id().get();
         if let (NMT, Some([ENTER_PRE_OPERATIONAL, node])) = (id, frame.bytes()) {
             let nodes = if *node == 0 { 1..=127 } else { *node..=*node };
-            self.commanded.extend(nodes);
+            self.expected.extend(nodes);
             return None;
         }
-        let node = id.checked_sub(ERROR_CONTROL).and_then(|node| u8::try_from(node).ok());
-        let node = node.filter(|node| (1..=127).contains(node))?;
+        if let (Some(node), Some(&[0x20..=0x2F, low, high, ..])) = (of_node(id, SDO_REQUEST), frame.bytes())
+            && u16::from_le_bytes([low, high]) == ERROR_BEHAVIOUR
+        {
+            self.expected.insert(node);
+            return None;
+        }
+        if let (Some(node), Some(&[code, class, ..])) = (of_node(id, EMERGENCY), frame.bytes()) {
+            match (code, class) {
+                (_, COMMUNICATION) => self.in_error.insert(node),
+                (0, 0) => self.in_error.remove(&node),
+                _ => false,
+            };
+            return None;
+        }
+        let node = of_node(id, ERROR_CONTROL)?;
         let Some([state]) = frame.bytes() else { return None };
         // The highest bit belongs to node guarding.
         let state = state & 0x7F;
         let before = self.states.insert(node, state);
         let restart = match (before, state) {
-            (_, BOOT_UP) => Restart::BootUp,
+            (_, BOOT_UP) => {
+                self.expected.remove(&node);
+                self.in_error.remove(&node);
+                Restart::BootUp
+            }
             (before, PRE_OPERATIONAL) => {
-                let was_commanded = self.commanded.remove(&node);
-                if was_commanded || !matches!(before, Some(STOPPED | OPERATIONAL)) {
+                let is_explained = self.expected.remove(&node) || self.in_error.contains(&node);
+                if is_explained || !matches!(before, Some(STOPPED | OPERATIONAL)) {
                     return None;
                 }
                 Restart::FellBack
@@ -68,6 +95,12 @@ impl Restarts {
     pub(crate) fn of(&self, node: u8) -> Option<Restart> {
         self.found.get(&node).copied()
     }
+}
+
+/// The node of an identifier in a range of 127.
+fn of_node(id: u16, first: u16) -> Option<u8> {
+    let node = id.checked_sub(first).and_then(|node| u8::try_from(node).ok());
+    node.filter(|node| (1..=127).contains(node))
 }
 
 #[cfg(test)]
@@ -106,6 +139,26 @@ mod tests {
                 [(0x705, &[5]), (0x000, &[128, node]), (0x705, &[5]), (0x705, &[127])];
             assert_eq!(after(&frames), [None; 2]);
         }
+    }
+
+    #[test]
+    fn a_node_that_falls_back_by_its_error_behaviour_does_not_start_again() {
+        // Heartbeat lost, or another error behaviour: the node does what 1029h.1 says.
+        let error: (u16, &[u8]) = (0x85, &[0x30, 0x81, 0x11, 7, 0, 0, 0, 0]);
+        let set: (u16, &[u8]) = (0x605, &[0x2F, 0x29, 0x10, 1, 0, 0, 0, 0]);
+        for why in [error, set] {
+            assert_eq!(after(&[(0x705, &[5]), why, (0x705, &[127])]), [None; 2]);
+        }
+        let fell_back = [Some(Restart::FellBack), None];
+        let solved: (u16, &[u8]) = (0x85, &[0; 8]);
+        let read: (u16, &[u8]) = (0x605, &[0x40, 0x29, 0x10, 1, 0, 0, 0, 0]);
+        assert_eq!(after(&[(0x705, &[5]), error, solved, (0x705, &[127])]), fell_back);
+        assert_eq!(after(&[(0x705, &[5]), read, (0x705, &[127])]), fell_back);
+        assert_eq!(after(&[(0x705, &[5]), (0x85, &[0, 0x50, 1, 0, 0, 0, 0, 0]), (0x705, &[127])]), fell_back);
+    }
+
+    #[test]
+    fn other_frames_show_nothing() {
         assert_eq!(after(&[(0x700, &[0]), (0x780, &[0]), (0x705, &[]), (0x705, &[0, 0])]), [None; 2]);
     }
 }

@@ -4,8 +4,8 @@ mod machine;
 
 use std::path::{Path, PathBuf};
 
-use od_gen::condensed;
 use od_gen::source::open;
+use od_gen::{CHECK, condensed};
 use od_spec::model::SystemSource;
 use od_spec::plant::{Plant, Settled, plant};
 use od_spec::source::SourceMap;
@@ -37,7 +37,7 @@ pub(crate) fn read(path: &Path, report: &Report) -> Result<Read, u8> {
     let mut diagnostics = read.diagnostics;
     for file in read.files {
         if file.source == Some(SystemSource::Eds) {
-            if let Some(line) = condensed(&file.name, &file.diagnostics) {
+            if let Some(line) = condensed(&file.name, CHECK, &file.diagnostics) {
                 report.note(&line);
             }
         } else {
@@ -52,7 +52,7 @@ pub(crate) fn read(path: &Path, report: &Report) -> Result<Read, u8> {
     let settled = settle(&plant, report);
     diagnostics.append(plant.check(&settled));
     diagnostics.sort();
-    report.show(&diagnostics, &sources);
+    report.show_used(path, "odgen plant check", &diagnostics, &sources);
     if diagnostics.has_errors() {
         return Err(ERRORS);
     }

@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use od_formats::findings::json;
-use od_gen::condense;
 use od_gen::source::{FileLoader, compile_file};
+use od_gen::{CHECK, condense, condensed};
 use od_spec::diag::render;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::eds::codes::UNKNOWN_MODULE;
@@ -28,6 +28,16 @@ pub(crate) struct Report {
     format: Format,
     colour: bool,
     disabled: Disabled,
+    shows: Shows,
+}
+
+/// What is shown of a specification without errors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Shows {
+    /// Each warning.
+    Warnings,
+    /// How many there are, in one line: who reads it cannot mend them.
+    Count,
 }
 
 /// What a command works on.
@@ -69,7 +79,13 @@ impl Report {
             Color::Never => false,
             Color::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
         };
-        Self { format, colour, disabled }
+        Self { format, colour, disabled, shows: Shows::Warnings }
+    }
+
+    /// The same for a command of operators, who use a specification that others write: its warnings are counted, and not repeated at
+    /// every call.
+    pub(crate) const fn for_operators(&self) -> Self {
+        Self { shows: Shows::Count, ..*self }
     }
 
     /// Reads the files of a command.
@@ -130,6 +146,19 @@ impl Report {
         self.write(&text);
     }
 
+    /// Shows what there is to say of a specification or plant that a command uses, and that `check` shows whole.
+    pub(crate) fn show_used(&self, path: &Path, check: &str, diagnostics: &Diagnostics, sources: &SourceMap) {
+        match (self.shows, self.audience()) {
+            (Shows::Count, Audience::People) if !diagnostics.has_errors() => {
+                let counted = condensed(&path.to_string_lossy(), check, &diagnostics.clone().without_notes());
+                if let Some(line) = counted {
+                    self.note(&line);
+                }
+            }
+            (Shows::Count | Shows::Warnings, _) => self.show(diagnostics, sources),
+        }
+    }
+
     /// Tells people what the command does unasked; programs that read JSON did not ask.
     pub(crate) fn note(&self, text: &str) {
         if self.format != Format::Json {
@@ -145,7 +174,7 @@ impl Report {
     /// [`compile`](Self::compile), with the node of a DCF and the texts that were read.
     pub(crate) fn compile_with_sources(&self, path: &Path) -> Option<(Used, SourceMap)> {
         let (used, diagnostics, sources) = self.compile_unshown(path);
-        self.show(&diagnostics, &sources);
+        self.show_used(path, CHECK, &diagnostics, &sources);
         Some((used?, sources))
     }
 

@@ -53,9 +53,9 @@ pub use server::{Exit, serve};
 /// The input is not the Language Server Protocol, or the output cannot be written.
 pub fn serve_stdio() -> io::Result<Exit> {
     copies::make_them();
-    let (connection, writer) = transport::stdio();
+    let (connection, broken, writer) = transport::stdio();
     let exit = serve(&connection);
     drop(connection);
     transport::finished(writer)?;
-    Ok(exit)
+    broken.take().map_or(Ok(exit), Err)
 }

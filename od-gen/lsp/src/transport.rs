@@ -4,6 +4,7 @@
 //! for as much memory as a length says.
 
 use std::io::{self, BufRead, Read as _, Write};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 
 use lsp_server::{Connection, ErrorCode, Message};
@@ -14,9 +15,26 @@ const LONGEST: u64 = (64 << 20) * 6;
 /// Longest line of a header.
 const LONGEST_HEADER: u64 = 4096;
 
-/// A connection on standard input and output, and the thread that writes. The one that reads ends with the process: nobody can
-/// wake it.
-pub(super) fn stdio() -> (Connection, JoinHandle<io::Result<()>>) {
+/// Why nothing more is read, where that is not the end of the input.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Broken(Arc<Mutex<Option<io::Error>>>);
+
+impl Broken {
+    fn set(&self, error: io::Error) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+    }
+
+    /// The error, if there was one; for the first who asks.
+    pub(super) fn take(&self) -> Option<io::Error> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+}
+
+/// A connection on standard input and output, what was wrong with the input, and the thread that writes. The one that reads
+/// ends with the process: nothing can wake it.
+pub(super) fn stdio() -> (Connection, Broken, JoinHandle<io::Result<()>>) {
+    let broken = Broken::default();
+    let noted = broken.clone();
     let (server, Connection { sender, receiver }) = Connection::memory();
     // Standard output is taken for one message at a time, as both threads write.
     let writer = thread::spawn(move || {
@@ -36,12 +54,16 @@ pub(super) fn stdio() -> (Connection, JoinHandle<io::Result<()>>) {
                         break;
                     }
                 }
-                // What stands behind something that is no frame cannot be told apart.
-                Ok(Frame::End) | Err(_) => break,
+                Ok(Frame::End) => break,
+                // After something that is no frame, the next one cannot be found.
+                Err(error) => {
+                    noted.set(error);
+                    break;
+                }
             }
         }
     });
-    (server, writer)
+    (server, broken, writer)
 }
 
 /// Waits until everything is written.

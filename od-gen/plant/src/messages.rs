@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 
 use od_spec::plant::{Bus, MachineType, Message, Plant, Settled, Traffic};
 
+use super::cell::plain;
+
 /// The flag of an identifier of 29 bits, and the identifier without it.
 const WIDE: u32 = 1 << 29;
 const IDENTIFIER: u32 = 0x1FFF_FFFF;
@@ -62,7 +64,7 @@ pub(super) fn pdos(text: &mut String, plant: &Plant, settled: &[Settled]) {
     }
     text.push_str("\n\n| type | COB-ID | sent by | received by | machines |\n|---|---|---|---|---|\n");
     for (pdo, machines) in &pdos {
-        let of_type = plant.types.get(pdo.of_type).map_or("", |one| &one.name);
+        let of_type = plant.types.get(pdo.of_type).map_or_else(String::new, |one| plain(&one.name));
         let (sent, received) = (pdo.sent.words(), pdo.received.words());
         let _ =
             writeln!(text, "| {of_type} | {:03X}h | {sent} | {received} | {machines} |", pdo.id & IDENTIFIER);
@@ -110,6 +112,6 @@ const fn identifier(id: u32) -> u32 {
 fn words(plant: &Plant, message: &Message) -> String {
     let node = plant.nodes.get(message.node);
     let device = node.and_then(|node| plant.devices.get(node.device)).map_or("", |device| &device.key);
-    let position = node.map_or("", |node| &node.position);
+    let position = node.map_or_else(String::new, |node| plain(&node.position));
     format!("{position} {device} {}", message.traffic.words())
 }

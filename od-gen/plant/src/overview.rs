@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use od_spec::eds::GENERATED;
+use od_spec::markdown::paragraph;
 use od_spec::model::EntryId;
 use od_spec::plant::{Level, Plant, Settled};
 
+use super::cell::plain;
 use super::messages::pdos;
 use super::values::{PlantValue, values};
 
@@ -21,7 +23,7 @@ struct Said<'a> {
 pub(super) fn write(plant: &Plant, settled: &[Settled], tables: &[&str]) -> String {
     let mut text = format!("<!-- {GENERATED} -->\n\n# {}\n", plain(&plant.title));
     if let Some(about) = &plant.about {
-        let _ = write!(text, "\n{}\n", plain(about));
+        let _ = write!(text, "\n{}\n", paragraph(plain(about)));
     }
     let _ = write!(
         text,
@@ -51,10 +53,10 @@ fn types(text: &mut String, plant: &Plant) {
             .iter()
             .map(|node| {
                 let key = plant.devices.get(node.device).map_or("", |device| &device.key);
-                format!("{} {key} {}", node.position, node.node.value)
+                format!("{} {key} {}", plain(&node.position), node.node.value)
             })
             .collect();
-        let _ = writeln!(text, "| {} | {count} | {} |", of_type.name, nodes.join(", "));
+        let _ = writeln!(text, "| {} | {count} | {} |", plain(&of_type.name), nodes.join(", "));
     }
 }
 
@@ -66,11 +68,11 @@ fn sites(text: &mut String, plant: &Plant) {
             by_type.entry(machine.of_type).or_default().push(&machine.name);
         }
         let name = match &site.title {
-            Some(title) => format!("{} ({})", site.name, plain(title)),
-            None => site.name.clone(),
+            Some(title) => format!("{} ({})", plain(&site.name), plain(title)),
+            None => plain(&site.name),
         };
         for (of_type, machines) in by_type {
-            let of_type = plant.types.get(of_type).map_or("", |one| &one.name);
+            let of_type = plant.types.get(of_type).map_or_else(String::new, |one| plain(&one.name));
             let remark = site.comment.as_deref().map(plain).unwrap_or_default();
             let _ = writeln!(text, "| {name} | {} | {of_type} | {remark} |", runs(&machines));
         }
@@ -94,7 +96,7 @@ fn runs(names: &[&str]) -> String {
             (Err(_), before) => {
                 parts.extend(before.map(shown));
                 open = None;
-                parts.push((*name).to_owned());
+                parts.push(plain(name));
             }
         }
     }
@@ -127,14 +129,14 @@ fn levels(text: &mut String, plant: &Plant, settled: &[Settled]) {
             let _ = write!(
                 text,
                 "\n### {}\n\n| device | entry | name | value | nodes | instead of |\n|---|---|---|---|---|---|\n",
-                layer.words()
+                plain(&layer.words())
             );
             level = Some(here);
         }
         let device = plant.devices.get(layer.device).map_or("", |device| &device.key);
         let lock = if value.is_unlocked { " **LOCKED**" } else { "" };
         let instead = match value.over.last() {
-            Some((before, _)) => format!("what {} says", before.words()),
+            Some((before, _)) => format!("what {} says", plain(&before.words())),
             None => value
                 .default
                 .as_deref()
@@ -153,7 +155,7 @@ fn levels(text: &mut String, plant: &Plant, settled: &[Settled]) {
 fn remarks(text: &mut String, plant: &Plant) {
     let mut rows = Vec::new();
     for machine in &plant.machines {
-        let name = format!("{} {}", plant.site_of(machine), machine.name);
+        let name = plain(&format!("{} {}", plant.site_of(machine), machine.name));
         if machine.serial.is_some() || machine.comment.is_some() {
             let serial = machine.serial.as_ref().map_or("", |serial| &serial.value);
             rows.push([
@@ -169,7 +171,7 @@ fn remarks(text: &mut String, plant: &Plant) {
                 let serial = node.serial.map(|serial| serial.value.to_string()).unwrap_or_default();
                 rows.push([
                     name.clone(),
-                    format!("{} {key} (node {})", node.position, node.node.value),
+                    format!("{} {key} (node {})", plain(&node.position), node.node.value),
                     serial,
                     node.comment.as_deref().map(plain).unwrap_or_default(),
                 ]);
@@ -190,10 +192,4 @@ fn remarks(text: &mut String, plant: &Plant) {
 /// `1 site`, `2 sites`.
 fn counted(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-}
-
-/// A text as a cell of a table can hold it.
-fn plain(text: &str) -> String {
-    let escaped = text.replace('\\', "\\\\").replace('|', "\\|").replace('<', "&lt;");
-    escaped.replace(['\r', '\n'], " ").trim().to_owned()
 }

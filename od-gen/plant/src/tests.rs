@@ -48,3 +48,23 @@ fn the_overview_names_the_tables_that_are_written() {
     assert_eq!(with(4), (both, true));
     assert_eq!(with(3), (one, false));
 }
+
+/// Texts of a plant command nothing in Markdown.
+#[test]
+fn the_overview_escapes_texts() {
+    let hostile = "*b* `m` [l](x) <img src=x> |";
+    let text = PLANT
+        .replace("title: Lamps", &format!("title: '{hostile}'\nabout: '# {hostile}'"))
+        .replace("{Hall: {type: L,", &format!("{{Hall: {{title: '{hostile}', comment: '{hostile}', type: L,"))
+        .replace("1..9: {}", &format!("1..9: {{}}, 1: {{comment: '{hostile}', serial: '{hostile}'}}"));
+    let mut sources = SourceMap::new();
+    let root = sources.add("plant.yaml", text);
+    let compiled = plant(&mut sources, root, &mut Lamp);
+    let plant = compiled.plant.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics));
+    let settled: Vec<Settled> = (0..plant.classes.len()).filter_map(|class| plant.settle(class)).collect();
+    let overview = overview::write(&plant, &settled, &["values.csv"]);
+    let escaped = "\\*b\\* \\`m\\` \\[l\\](x) \\<img src=x> \\|";
+    assert_eq!(overview.matches(escaped).count(), overview.matches("img").count(), "{overview}");
+    assert!(overview.matches(escaped).count() >= 5, "{overview}");
+    assert!(overview.contains(&format!("\n\\# {escaped}\n")), "{overview}");
+}

@@ -5,7 +5,7 @@ use std::hash::{BuildHasher as _, RandomState};
 use std::io::{self, Write as _};
 use std::path::Path;
 
-use super::{of_path, parent};
+use super::parent;
 
 /// Whether a file has to survive a power failure that follows at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,8 +74,8 @@ impl Disk for Real {
 /// How the temporary names begin. A random number follows, so that two runs never share one.
 pub(super) const TEMPORARY: &str = ".odgen-new-";
 
-/// Replaces a file as a whole: the contents get a temporary name in its folder first. A folder that was made for it is removed where
-/// that fails.
+/// Replaces a file as a whole: the contents get a temporary name in its folder first. Where that fails, folders that were made for it
+/// do not stay.
 pub(super) fn put(
     target: &Path,
     pieces: &[&[u8]],
@@ -83,37 +83,22 @@ pub(super) fn put(
     durability: Durability,
     disk: &impl Disk,
 ) -> io::Result<()> {
-    // Innermost first.
-    let missing: Vec<&Path> =
-        parent(target).ancestors().take_while(|folder| !of_path(folder).exists()).collect();
-    let done = put_in_folder(target, pieces, like, durability, disk);
-    if done.is_err() {
-        for folder in missing {
-            let _ = fs::remove_dir(folder);
-        }
-    }
-    done
-}
-
-fn put_in_folder(
-    target: &Path,
-    pieces: &[&[u8]],
-    like: Option<&Metadata>,
-    durability: Durability,
-    disk: &impl Disk,
-) -> io::Result<()> {
-    fs::create_dir_all(parent(target))?;
+    let folder = parent(target);
+    let missing: Vec<&Path> = folder.ancestors().take_while(|folder| !folder.exists()).collect();
     let temporary = target.with_file_name(format!("{TEMPORARY}{:016x}", RandomState::new().hash_one(())));
     let mut tries = 10;
     loop {
         tries -= 1;
-        let done =
-            disk.create(&temporary, pieces, like, durability).and_then(|()| disk.rename(&temporary, target));
+        let done = fs::create_dir_all(folder)
+            .and_then(|()| disk.create(&temporary, pieces, like, durability))
+            .and_then(|()| disk.rename(&temporary, target));
         match done {
             // Another run that began meanwhile took it for one of a killed run: see `sweep`.
             Err(error) if error.kind() == io::ErrorKind::NotFound && tries > 0 => {}
             Err(error) => {
                 let _ = disk.remove(&temporary);
+                // Only what is empty goes: another run may have put its own files there.
+                let _ = missing.into_iter().try_for_each(fs::remove_dir);
                 return Err(error);
             }
             Ok(()) => return Ok(()),

@@ -197,14 +197,19 @@ fn a_step_that_fails_leaves_whole_files_and_names_those_that_were_written() {
 }
 
 #[test]
-fn a_folder_that_was_made_for_a_file_that_cannot_be_written_is_gone() {
-    for at in 0..3 {
-        let scratch = Scratch::new("no-folder");
+fn a_first_file_that_fails_leaves_no_folder_behind() {
+    for (at, existing, stays) in
+        [(0, "", false), (1, "", false), (2, "", false), (1, "new", true), (3, "", true)]
+    {
+        let scratch = Scratch::new("folder");
+        fs::create_dir_all(scratch.0.join(existing)).unwrap();
         let disk = Faulty { left: Cell::new(at), after: After::Alive };
-        let files = set(&[("new/deep/a", "1")]);
-        let result = write_with(&scratch.0, &files, Existing::None, Durability::Now, &disk, &mut |_, _| {});
-        assert!(result.is_err());
-        assert!(scratch.0.exists() && !scratch.0.join("new").exists(), "{at}");
+        let set = set(&[("a/b", "1"), ("a/c", "1")]);
+        let written =
+            write_with(&scratch.0.join("new"), &set, Existing::None, Durability::Now, &disk, &mut |_, _| {});
+        assert_eq!(written.unwrap_err().written.len(), at / 3, "{at}");
+        assert_eq!(scratch.0.join("new").exists(), stays, "{at}");
+        assert_eq!(scratch.0.join("new/a").exists(), at == 3, "{at}");
     }
 }
 

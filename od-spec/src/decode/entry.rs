@@ -60,7 +60,6 @@ impl FromNode for DefaultDecl {
 /// A value, a list of values, or a map of them.
 pub(super) fn default(reader: Reader<'_>) -> Option<Spanned<DefaultDecl>> {
     let value = match &reader.node.kind {
-        NodeKind::List(items) if items.is_empty() => return None,
         NodeKind::List(items) => {
             DefaultDecl::Each(items.iter().filter_map(|item| default(reader.at(item))).collect())
         }

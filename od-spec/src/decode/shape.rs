@@ -169,8 +169,8 @@ pub(super) fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Di
             NodeKind::Null | NodeKind::Map(_) | NodeKind::Broken => wrong_kind(node, "a list", diagnostics),
         },
         Shape::Feature => check_feature(node, diagnostics),
+        // An empty list says that no bit is 1.
         Shape::Default | Shape::Setting => match &node.kind {
-            NodeKind::List(items) if items.is_empty() => wrong_kind(node, "at least one value", diagnostics),
             NodeKind::List(items) => {
                 for node in items {
                     let owner = start(node);
@@ -294,6 +294,11 @@ fn check_keyed(node: &Node, kind: KeyKind, value: Shape, diagnostics: &mut Diagn
             let message = format!("found the key `{}`, expected {}", shorten(text), key_words(kind));
             let diagnostic = Diagnostic::new(codes::BAD_KEY, name.span, message);
             diagnostics.push(match (turned, meant) {
+                _ if matches!(kind, KeyKind::SubIndices | KeyKind::SubIndex)
+                    && scalar::integer(text) == Ok(0) =>
+                {
+                    diagnostic.help("sub-index 0 counts the others: its keys go into `sub0:` of the object")
+                }
                 (Some(turned), _) => write_turned(diagnostic, &turned),
                 (None, Some(meant)) => diagnostic.write(&meant),
                 (None, None) => diagnostic.help(format!("keys of this map are {}", key_words(kind))),

@@ -18,11 +18,11 @@ macro_rules! entry_keys {
     ($then:ident) => {
         $then! {
             names {
-                "name": Shape::Text => name: String, Name, Object, "name, as the manual spells it", "actual position", sub0 "name; `number of elements` unless given";
+                "name": Shape::Text => name: String, Name, Object, "name, as the manual spells it; needed without `from`, `like` and `alias`", "actual position", sub0 "name; `number of elements` unless given";
                 "identifier": Shape::Text => identifier: String, Identifier, Object, "name in references and in generated code, where `name` will not do, or where others have it, too", "speed_limit_2", sub0 "name in references and in generated code";
             }
             values {
-                "type": Shape::Type => type_name: String, Type, Entries, "data type, or a named type", "unsigned16";
+                "type": Shape::Type => type_name: String, Type, Entries, "data type, or a named type; needed without `from`, `like` and `alias`", "unsigned16";
                 "unit": Shape::NameOf(NameOf::Unit) => unit: String, Unit, Entries, "physical unit, by name", "decicelsius";
                 "access": Shape::Access => access: AccessRight, Access, Entries, "`ro`, `wo`, `rw`, `rwr`, `rww` or `const`; `rw locked`: writable only when unlocked for service", "rw locked", sub0 "access; `ro` unless given";
                 "pdo": Shape::Choice(PdoMapping::WORDS) => pdo: PdoMapping, Mapping, Entries, "PDOs it may be mapped into; none unless given", sub0 "PDOs it may be mapped into; none unless given";

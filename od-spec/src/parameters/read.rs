@@ -61,6 +61,11 @@ fn value(
 ) -> Result<Value, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     let read = match (&written.value, entry.named_type.as_deref()) {
+        (DefaultDecl::One(text), Some(NamedType { kind: TypeKind::Bits(fields), .. }))
+            if let Some(bits) = listed(text, written.span) =>
+        {
+            bit_values::read(&bits, fields, entry.data_type, &mut diagnostics)
+        }
         (DefaultDecl::One(text), _) => {
             // Blanks around a number are no part of it, but a text may not lose them unnoticed.
             let is_text = matches!(entry.data_type, DataType::VisibleString | DataType::UnicodeString);
@@ -85,6 +90,13 @@ fn value(
         }
     };
     read.ok_or(diagnostics)
+}
+
+/// A list of bits in one text, as on a command line: `[valve 1, valve 2]`.
+fn listed(text: &str, span: Span) -> Option<Vec<Spanned<DefaultDecl>>> {
+    let items = text.trim().strip_prefix('[')?.strip_suffix(']')?;
+    let items = items.split(',').map(str::trim).filter(|item| !item.is_empty());
+    Some(items.map(|item| Spanned::new(DefaultDecl::One(item.to_owned()), span)).collect())
 }
 
 /// A list for what has no bits, or a map for what has no entries.

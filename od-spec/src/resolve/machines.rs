@@ -106,9 +106,11 @@ fn whole<'a>(
             None => commands.push(over.clone()),
         }
     }
+    // What the library names and the device has not is reported where the library is named.
+    let named = |below: &Option<Name>| Some(Spanned::new(below.as_ref()?.value.clone(), from.span));
     Some(Cow::Owned(MachineDecl {
-        status: decl.status.clone().or_else(|| below.status.clone()),
-        command: decl.command.clone().or_else(|| below.command.clone()),
+        status: decl.status.clone().or_else(|| named(&below.status)),
+        command: decl.command.clone().or_else(|| named(&below.command)),
         states,
         transitions,
         commands,

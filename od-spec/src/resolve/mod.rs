@@ -24,6 +24,7 @@ mod issues;
 mod keys_have_effect;
 mod libraries;
 mod likes;
+mod lookup;
 mod machines;
 mod numbers;
 mod objects;
@@ -52,9 +53,10 @@ use crate::source::Span;
 use figures::Figures;
 use libraries::Libraries;
 pub(crate) use likes::expand;
+pub(crate) use lookup::{Lookup, NotFound};
 use numbers::to_u32;
 use refs::NamesOf;
-pub(crate) use refs::{Lookup, Names as NamesOfDevice, Namesake, NotFound, ambiguous};
+pub(crate) use refs::{Names as NamesOfDevice, Namesake, ambiguous};
 use scope::Scope;
 
 /// What a specification gives.

@@ -294,19 +294,37 @@ fn steps<'a>(
     let (Some(step), Some(offset)) = (unit.step_in(symbol), unit.offset_in(symbol)) else {
         let base = unit.base_symbol();
         let known = if base == unit.symbol { String::new() } else { format!(" or `{base}`") };
-        return Err(Box::new(
-            Diagnostic::new(
-                codes::WRONG_SYMBOL,
-                span,
-                format!("`{}` is not the symbol of unit `{}`", shorten(symbol), unit.name),
-            )
-            .help(format!("write the value in `{}`{known}", unit.symbol)),
-        ));
+        let unknown = Diagnostic::new(
+            codes::WRONG_SYMBOL,
+            span,
+            format!("`{}` is not the symbol of unit `{}`", shorten(symbol), unit.name),
+        );
+        let help = match [unit.symbol.as_str(), base].into_iter().find_map(|own| look_alike(symbol, own)) {
+            Some((found, own)) => {
+                format!("write U+{:04X} (`{own}`) instead of U+{:04X}", u32::from(own), u32::from(found))
+            }
+            None => format!("write the value in `{}`{known}", unit.symbol),
+        };
+        return Err(Box::new(unknown.help(help)));
     };
     match unit.steps(number, symbol) {
         Some(count) => Ok(Steps { unit, step, offset, count }),
         None => Err(Box::new(too_large(span))),
     }
+}
+
+/// The first characters of two symbols that differ, where the symbols look the same.
+fn look_alike(one: &str, other: &str) -> Option<(char, char)> {
+    // Micro sign, ohm sign and Ångström sign are there twice, and so are degree sign and ordinal indicator by their looks.
+    let shown = |c: char| match c {
+        '\u{B5}' => '\u{3BC}',
+        '\u{2126}' => '\u{3A9}',
+        '\u{212B}' => '\u{C5}',
+        '\u{BA}' => '\u{B0}',
+        c => c,
+    };
+    let looks_the_same = one.chars().map(shown).eq(other.chars().map(shown));
+    one.chars().zip(other.chars()).find(|(one, other)| looks_the_same && one != other)
 }
 
 /// Reads a value and sends what is wrong to `diagnostics`.

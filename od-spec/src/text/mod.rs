@@ -4,4 +4,5 @@ pub mod ascii;
 pub mod encoding;
 pub mod file_name;
 mod fit;
+pub mod markdown;
 pub mod visible;

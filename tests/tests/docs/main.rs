@@ -7,7 +7,7 @@ use std::path::Path;
 
 use od_documents::{self as docs, Format, Templates};
 use od_tests::memo::Memo;
-use od_tests::{compile_clean, documents};
+use od_tests::{compile_clean, documents, plant};
 
 mod defaults;
 mod figures;
@@ -197,20 +197,21 @@ fn the_description_of_the_context_is_complete() {
     assert!(missing.is_empty() && names.len() > 60, "{missing:?}");
 }
 
+/// The templates of the AsciiDoc example.
+fn asciidoc() -> Vec<(String, String)> {
+    let directory = od_tests::root().join("docs-gen/examples/asciidoc");
+    let files = std::fs::read_dir(directory).unwrap().map(|entry| {
+        let entry = entry.unwrap();
+        (entry.file_name().into_string().unwrap(), std::fs::read_to_string(entry.path()).unwrap())
+    });
+    files.collect()
+}
+
 /// A writer's own format: the example's templates make AsciiDoc without a line of Rust.
 #[test]
 fn the_asciidoc_example_prints_every_table() {
-    let directory = od_tests::root().join("docs-gen/examples/asciidoc");
-    let mut files: Vec<(String, String)> = std::fs::read_dir(directory)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .map(|path| {
-            (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read_to_string(path).unwrap())
-        })
-        .collect();
-    files.sort();
     let system = compile_clean(PITCH).unwrap();
-    let templates = [Templates::new(None, &files).unwrap()];
+    let templates = [Templates::new(None, &asciidoc()).unwrap()];
     let printed = docs::artifacts(&system, "", "s", &docs::options(&system, &[], None), &templates).unwrap();
     assert_eq!(
         printed.iter().map(|file| file.path.as_str()).collect::<Vec<_>>(),
@@ -225,6 +226,27 @@ fn the_asciidoc_example_prints_every_table() {
     let grids = text.matches("[cols=").count();
     assert_eq!(text.matches("|===\n").count(), 2 * grids);
     assert!(text.contains("| 6041h\n") || text.contains("]]6041h\n"));
+}
+
+/// Texts command nothing in AsciiDoc: no format, attribute, link, index term, cell or file.
+#[test]
+fn the_asciidoc_example_escapes_texts() {
+    let payload =
+        "*b* _i_ `m` #k# {docname} <<x>> [[y]] |z| include::w[] ((v)) (C) a -- b ... https://example.org";
+    let marks =
+        ["*b", " _i", "`m", "#k", "{d", "<<x", "[[y", "|z", "::w", "w[", "((v", "(C)", " -- ", " ...", "://"];
+    let sites = plant::sites(plant::TEXTS);
+    let planted = plant::accepted(plant::TEXTS, &sites, payload, &mut |_, _| ()).unwrap();
+    let (_, compiled) = plant::compiled(&plant::planted(plant::TEXTS, &sites, &planted.chosen, payload).0);
+    let system = compiled.system.unwrap();
+    let templates = [Templates::new(None, &asciidoc()).unwrap()];
+    let printed = docs::artifacts(&system, "", "s", &docs::options(&system, &[], None), &templates).unwrap();
+    let text = std::str::from_utf8(&printed[0].bytes).unwrap();
+    for mark in marks {
+        let found = text.lines().find(|line| line.contains(mark));
+        assert_eq!(found, None, "{mark}");
+    }
+    assert!(text.matches("&#42;b&#42;").count() > 50, "{text}");
 }
 
 #[test]

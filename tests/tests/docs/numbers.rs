@@ -71,12 +71,7 @@ fn a_number_is_a_link_from_page_to_page() {
     assert_has(&markdown["1-two-devices.md"], "<a id=\"section-1.2\"></a>");
     let print = files(NUMBERS, &[], &Templates::new(Some(Format::Print), &[]).unwrap());
     assert_has(&print["manual.html"], "as <a href=\"#section-1.2\">section 1.2</a> says.");
-    let folder = od_tests::root().join("docs-gen/examples/asciidoc");
-    let example = std::fs::read_dir(folder).unwrap().map(|entry| {
-        let entry = entry.unwrap();
-        (entry.file_name().into_string().unwrap(), std::fs::read_to_string(entry.path()).unwrap())
-    });
-    let example = Templates::new(None, &example.collect::<Vec<_>>()).unwrap();
+    let example = Templates::new(None, &crate::asciidoc()).unwrap();
     assert_has(&files(NUMBERS, &[], &example)["manual.adoc"], "as <<od-section-1.2,section 1.2>> says.");
 }
 

@@ -77,6 +77,17 @@ impl<S: Sink> SdoRead<S> {
         self.sink
     }
 
+    /// How the data travel: in segments also where the server refuses blocks.
+    pub const fn way(&self) -> Way {
+        match self.state {
+            State::Asked | State::Segments { .. } => Way::Segments,
+            #[cfg(feature = "sdo-block")]
+            State::Again => Way::Segments,
+            #[cfg(feature = "sdo-block")]
+            State::BlocksAsked { .. } | State::Blocks(_) => Way::Blocks,
+        }
+    }
+
     /// Takes a frame that was received. Frames that are not from the server are left alone.
     pub fn handle(&mut self, frame: &Frame, now: Instant) -> Step {
         let Some(bytes) = self.line.hear(frame, now) else { return Step::NOTHING };

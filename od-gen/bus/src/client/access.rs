@@ -2,11 +2,12 @@
 
 mod load;
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::time::Duration;
 
 use firmware_glue::frame::{CanId, Frame};
-use firmware_glue::sdo::{Channel, Failure, SdoClient, Sink, Source, Step};
+use firmware_glue::sdo::{Channel, Failure, SdoClient, Sink, Source, Step, Way};
 use firmware_glue::{AbortCode, NodeId, clock};
 use od_spec::model::{DataType, EntryId};
 
@@ -37,6 +38,8 @@ pub struct Client<B> {
     /// Reads that succeeded only when they were repeated.
     recovered: usize,
     restarts: Restarts,
+    /// Nodes that do not send blocks.
+    without_blocks: BTreeSet<u8>,
 }
 
 /// Why an access failed.
@@ -183,6 +186,7 @@ impl<B: Bus> Client<B> {
             writes: 0,
             recovered: 0,
             restarts: Restarts::default(),
+            without_blocks: BTreeSet::new(),
         }
     }
 
@@ -214,9 +218,14 @@ impl<B: Bus> Client<B> {
         Ok(client)
     }
 
+    /// Microseconds from any beginning.
+    pub(super) fn micros(&self) -> u64 {
+        self.bus.now()
+    }
+
     /// The time, as SDO takes it.
     fn now(&self) -> clock::Instant {
-        clock::Instant::from_micros(self.bus.now())
+        clock::Instant::from_micros(self.micros())
     }
 
     /// Reads an entry of a node, all bytes that come. It is repeated when a frame was lost or broken.
@@ -224,24 +233,35 @@ impl<B: Bus> Client<B> {
     /// # Errors
     /// [`AccessError`]: nothing is known of the value.
     pub fn read(&mut self, node: u8, id: EntryId) -> Result<Vec<u8>, AccessError> {
-        self.read_whole(node, id).map(|(bytes, _)| bytes)
+        self.read_whole(node, id, Way::Segments).map(|(bytes, _)| bytes)
     }
 
-    /// Reads an entry of a type: an answer that does not say how many of its four bytes are the value is as long as the type.
+    /// Reads an entry of a type: an answer that does not say how many of its four bytes are the value is as long as the type. A DOMAIN,
+    /// which may be long, is read in blocks if the node has them: a value of 64 bytes then takes 3 answers in place of 11.
     ///
     /// # Errors
     /// As [`read`](Self::read).
     pub fn read_as(&mut self, node: u8, id: EntryId, data_type: DataType) -> Result<Vec<u8>, AccessError> {
-        let (mut bytes, last) = self.read_whole(node, id)?;
+        let way = match data_type {
+            DataType::Domain if !self.without_blocks.contains(&node) => Way::Blocks,
+            _ => Way::Segments,
+        };
+        let (mut bytes, last) = self.read_whole(node, id, way)?;
         if let Some(bits) = data_type.bits().filter(|_| last.is_some_and(|last| is_without_size(&last))) {
             bytes.truncate(usize::from(bits.div_ceil(8)));
         }
         Ok(bytes)
     }
 
-    /// What was read, and the frame that ended it.
-    fn read_whole(&mut self, node: u8, id: EntryId) -> Result<(Vec<u8>, Option<Frame>), AccessError> {
-        let client = self.sdo(node)?;
+    /// What was read, and the frame that ended it. What is repeated travels in segments.
+    fn read_whole(
+        &mut self,
+        node: u8,
+        id: EntryId,
+        way: Way,
+    ) -> Result<(Vec<u8>, Option<Frame>), AccessError> {
+        let mut client = self.sdo(node)?;
+        client.way = way;
         let mut retries = self.retries;
         // Answers that may still come, too late: for the next request they are wrong.
         let mut late = 0_u8;
@@ -249,9 +269,14 @@ impl<B: Bus> Client<B> {
             let now = self.now();
             let (mut reading, request) = client.start_read(of_bus(id), Collected::default(), now);
             self.bus.send(&request)?;
-            match self.finish(client.channel, &mut reading) {
+            let ended = self.finish(client.channel, &mut reading);
+            let is_refused = client.way == Way::Blocks && reading.way() == Way::Segments;
+            match ended {
                 Ok(last) => {
                     self.recovered += usize::from(retries < self.retries);
+                    if is_refused {
+                        self.without_blocks.insert(node);
+                    }
                     return Ok((reading.into_sink().0, last));
                 }
                 Err(AccessError::Wrong(_)) if late > 0 => late -= 1,
@@ -263,6 +288,7 @@ impl<B: Bus> Client<B> {
                     late += u8::from(matches!(error, AccessError::Silent));
                 }
             }
+            client.way = Way::Segments;
         }
     }
 
@@ -280,6 +306,7 @@ impl<B: Bus> Client<B> {
         let begun = client.start_write(of_bus(id), source, self.now());
         let (mut writing, request) = begun.map_err(AccessError::Wrong)?;
         self.writes += 1;
+        self.restarts.hear(&request);
         self.bus.send(&request)?;
         self.finish(client.channel, &mut writing).map(|_| ())
     }

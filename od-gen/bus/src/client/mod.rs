@@ -6,6 +6,7 @@
 mod access;
 mod link;
 mod port;
+mod probe;
 mod recognize;
 mod restore;
 mod scan;
@@ -21,7 +22,8 @@ use firmware_glue::frame::Frame;
 pub use self::access::{AccessError, Client};
 pub use self::link::{OpenError, SlcanBus};
 pub use self::port::{Manner, Port};
-pub use self::recognize::{Contradiction, Fact, Remark, introduced, recognize};
+pub use self::probe::{Found, Holds, Prober};
+pub use self::recognize::{Contradiction, Fact, Remark, Revision, introduced, recognize};
 pub use self::restore::{involved, judged, kept, plan, value};
 pub use self::scan::{Answer, Heard, Identity, scan};
 pub use self::serial::Serial;

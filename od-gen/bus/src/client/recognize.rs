@@ -79,6 +79,33 @@ pub fn recognize<B: Bus>(
     Ok(remarks)
 }
 
+/// How the revision of a node relates to that of a dictionary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Revision {
+    /// It is the same, or the dictionary does not state one.
+    Same,
+    /// The node has a higher minor revision, which is compatible.
+    Newer,
+    /// It is another one.
+    Other,
+    /// The node does not tell it.
+    Untold,
+}
+
+impl Revision {
+    /// That of a node and that of a dictionary.
+    pub fn of(node: &Identity, device: &Identity) -> Self {
+        let number = |identity: &Identity| identity.revision.filter(|revision| *revision != 0);
+        match (number(node), number(device)) {
+            (_, None) => Self::Same,
+            (None, Some(_)) => Self::Untold,
+            (Some(told), Some(stated)) if told == stated => Self::Same,
+            (Some(told), Some(stated)) if is_extension(told, stated) => Self::Newer,
+            (Some(_), Some(_)) => Self::Other,
+        }
+    }
+}
+
 /// CiA 301, 1018h.3: with another major revision (the upper 16 bits) a device behaves otherwise; a higher minor one only adds something.
 const fn is_extension(told: u32, stated: u32) -> bool {
     told >> 16 == stated >> 16 && told > stated

@@ -26,6 +26,7 @@ objects:
   0x2004: {name: service, type: unsigned8, access: rw, default: 0, writable-when: \"0x2003 == 2\"}
   0x2005: {name: low too, alias: 0x2000, type: unsigned8, access: rw}
   0x2006: {name: measured, type: unsigned8, access: ro}
+  0x2007: {name: picture, type: domain, access: rw}
 constraints:
   thresholds keep their order: {require: \"0x2000 < 0x2001\"}
 ";
@@ -513,7 +514,7 @@ fn what_conditions_ask_for_is_involved() {
     assert_eq!(of(0x2004), BTreeSet::from([id(0x2003)]));
     assert_eq!(of(0x2002), BTreeSet::new());
     let kept: Vec<EntryId> = kept(&system.devices[0]).filter(|id| id.index.0 >= 0x2000).collect();
-    assert_eq!(kept, [0x2000, 0x2001, 0x2002, 0x2003, 0x2004].map(id));
+    assert_eq!(kept, [0x2000, 0x2001, 0x2002, 0x2003, 0x2004, 0x2007].map(id));
 }
 
 #[test]
@@ -545,4 +546,189 @@ fn a_node_that_obeys_the_client_does_not_start_again() {
         }
         assert_eq!(client.restarted(5).unwrap(), None);
     });
+}
+
+/// What a node has at an index: sub-indices, with what came when each was read.
+fn probed<B: Bus>(prober: &mut Prober<'_, B>, index: u16) -> Vec<(u8, String)> {
+    let told = |holds| match holds {
+        Holds::Bytes(bytes) => format!("{bytes:?}"),
+        Holds::WriteOnly => "write only".to_owned(),
+        Holds::Untold(error) => error.to_string(),
+    };
+    prober
+        .object(Index(index))
+        .unwrap()
+        .into_iter()
+        .map(|found| (found.id.sub.0, told(found.holds)))
+        .collect()
+}
+
+#[test]
+fn a_node_is_asked_what_it_has() {
+    with_lamps(|_, client| {
+        let mut prober = Prober::new(client, 5).unwrap().unwrap();
+        assert_eq!(probed(&mut prober, 0x2000), [(0, "[20, 0]".to_owned())]);
+        assert_eq!(
+            probed(&mut prober, 0x2003),
+            [(0, "[1]".to_owned())],
+            "a byte is not a number of elements"
+        );
+        assert_eq!(probed(&mut prober, 0x20FF), []);
+        let identity = probed(&mut prober, 0x1018);
+        assert_eq!(identity.iter().map(|(sub, _)| *sub).collect::<Vec<_>>(), [0, 1, 2, 3, 4]);
+        assert!(Prober::new(client, 7).is_err(), "nobody is there");
+    });
+}
+
+/// The first answer to an upload of an index and a sub-index; `None` is what the node answers itself.
+type Answered = fn(u16, u8) -> Option<u32>;
+
+/// Abort codes in place of answers.
+fn aborting(answered: Answered) -> impl FnMut(usize, Frame) -> Vec<Frame> {
+    move |_, frame| {
+        let bytes: [u8; 8] = frame.bytes().unwrap().try_into().unwrap();
+        let [_, low, high, sub, ..] = bytes;
+        let code = answered(u16::from_le_bytes([low, high]), sub);
+        vec![code.map_or(frame, |code| {
+            let [a, b, c, d] = code.to_le_bytes();
+            Frame::full(frame.id(), [0x80, low, high, sub, a, b, c, d])
+        })]
+    }
+}
+
+#[test]
+fn what_a_node_refuses_to_tell_is_there() {
+    let answered: Answered = |index, sub| match (index, sub) {
+        (0x2000, 0) => Some(0x0601_0001),
+        (0x2001, 0) => Some(0x0800_0022),
+        // Elements with gaps.
+        (0x2003, 2 | 3 | 5 | 7..) => Some(0x0609_0011),
+        (0x2003, 1 | 4) => Some(0x0800_0024),
+        (0x2003, 6) => Some(0x0601_0001),
+        // Any element at all, without a value.
+        (0x2001, 1..) => Some(0x060A_0023),
+        // Elements without a value.
+        (0x2005, 0) => Some(0x0800_0022),
+        (0x2005, 1..=254) => Some(0x0800_0024),
+        (0x2004.., _) => Some(0x0602_0000),
+        (_, _) => None,
+    };
+    with_dirt(aborting(answered), |client| {
+        let mut prober = Prober::new(client, 5).unwrap().unwrap();
+        assert_eq!(probed(&mut prober, 0x2000), [(0, "write only".to_owned())]);
+        let state =
+            "the node refuses: 0800 0022h: data cannot be transferred because of the present device state";
+        assert_eq!(probed(&mut prober, 0x2001), [(0, state.to_owned())]);
+        let subs = |prober: &mut Prober<'_, _>| {
+            probed(prober, 0x2003).into_iter().map(|(sub, _)| sub).collect::<Vec<_>>()
+        };
+        assert_eq!(subs(&mut prober), [0, 1], "1 is the number of elements");
+        assert_eq!(probed(&mut prober, 0x2005).len(), 255);
+        client.write(5, id(0x2003), &[4]).unwrap();
+        assert_eq!(
+            subs(&mut Prober::new(client, 5).unwrap().unwrap()),
+            [0, 1, 4, 6],
+            "4 is, and 5 is reserved"
+        );
+    });
+}
+
+#[test]
+fn a_node_says_in_its_own_way_that_it_has_no_object() {
+    // "General error" for everything that is not there.
+    let answered: Answered = |index, _| (index != 0x2000).then_some(0x0800_0000);
+    with_dirt(aborting(answered), |client| {
+        let mut prober = Prober::new(client, 5).unwrap().unwrap();
+        assert_eq!(probed(&mut prober, 0x2000), [(0, "[20, 0]".to_owned())]);
+        assert_eq!(probed(&mut prober, 0x2001), []);
+    });
+    // One that answers always cannot be asked.
+    let echo = |_, frame: Frame| {
+        let mut bytes: [u8; 8] = frame.bytes().unwrap().try_into().unwrap();
+        bytes[0] = 0x43;
+        vec![Frame::full(frame.id(), bytes)]
+    };
+    with_dirt(echo, |client| assert!(Prober::new(client, 5).unwrap().is_none()));
+}
+
+/// Requests that reading a long value takes.
+fn reading_takes<F: FnMut(usize, Frame) -> Vec<Frame>>(client: &mut Client<Dirty<'_, F>>) -> usize {
+    let before = client.bus().requests;
+    let long: Vec<u8> = (0..=255).cycle().take(2000).collect();
+    assert!(client.read_as(5, id(0x2007), DataType::Domain).unwrap() == long);
+    client.bus().requests - before
+}
+
+fn with_picture<F: FnMut(usize, Frame) -> Vec<Frame>>(
+    becomes: F,
+    test: impl FnOnce(&mut Client<Dirty<'_, F>>),
+) {
+    with_dirt(becomes, |client| {
+        let long: Vec<u8> = (0..=255).cycle().take(2000).collect();
+        client.write(5, id(0x2007), &long).unwrap();
+        test(client);
+    });
+}
+
+#[test]
+fn a_domain_is_read_in_blocks() {
+    with_picture(
+        |_, frame| vec![frame],
+        |client| {
+            // Begin, start, three blocks, end.
+            assert_eq!(reading_takes(client), 6);
+            assert_eq!(client.read_as(5, id(0x2000), DataType::Unsigned16).unwrap(), [20, 0]);
+        },
+    );
+}
+
+#[test]
+fn a_node_without_blocks_is_asked_for_them_once() {
+    let becomes = |_, frame: Frame| match frame.bytes() {
+        // It knows no command that begins a block.
+        Some([0xC0..=0xC7, rest @ ..]) => {
+            let [low, high, sub, ..] = *rest else { panic!("8 bytes") };
+            let [a, b, c, d] = AbortCode::COMMAND.0.to_le_bytes();
+            vec![Frame::full(frame.id(), [0x80, low, high, sub, a, b, c, d])]
+        }
+        _ => vec![frame],
+    };
+    with_picture(becomes, |client| {
+        let in_segments = 1 + 2000_usize.div_ceil(7);
+        assert_eq!(reading_takes(client), 1 + in_segments);
+        assert_eq!(reading_takes(client), in_segments);
+    });
+}
+
+#[test]
+fn a_block_that_breaks_is_read_again_in_segments() {
+    let mut broken = false;
+    let becomes = move |_, frame: Frame| match frame.bytes() {
+        // The checksum at the end.
+        Some([command, _, crc, ..]) if command & 0xE3 == 0xC1 && *crc != 0 && !broken => {
+            broken = true;
+            let mut bytes: [u8; 8] = frame.bytes().unwrap().try_into().unwrap();
+            bytes[1] ^= 0x55;
+            vec![Frame::full(frame.id(), bytes)]
+        }
+        _ => vec![frame],
+    };
+    with_picture(becomes, |client| {
+        assert!(reading_takes(client) > 2000 / 7);
+        assert_eq!(reading_takes(client), 6, "the node has blocks");
+    });
+}
+
+#[test]
+fn a_higher_minor_revision_is_newer_and_not_another_one() {
+    let of = |revision| Identity { revision, ..Identity::default() };
+    let relation = |told, stated| Revision::of(&of(told), &of(stated));
+    assert_eq!(relation(Some(0x0001_0002), Some(0x0001_0002)), Revision::Same);
+    assert_eq!(relation(Some(0x0001_0003), Some(0x0001_0002)), Revision::Newer);
+    assert_eq!(relation(Some(0x0001_0001), Some(0x0001_0002)), Revision::Other);
+    assert_eq!(relation(Some(0x0002_0002), Some(0x0001_0002)), Revision::Other);
+    for untold in [None, Some(0)] {
+        assert_eq!(relation(untold, Some(0x0001_0002)), Revision::Untold);
+        assert_eq!(relation(Some(0x0001_0002), untold), Revision::Same, "nothing is stated");
+    }
 }

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use od_c as c;
 use od_formats::{Selection, artifacts};
 use od_gen::files::{Existing, WriteError, left_over, remove};
-use od_gen::{Artifact, Provenance, rust};
+use od_gen::{Artifact, CHECK, Provenance, rust};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Devices, Dictionary, Origin, PdoMapping, System};
 use od_spec::rule_codes;
@@ -219,7 +219,7 @@ fn compile_all(specs: &[PathBuf], args: &BuildArgs, report: &Report) -> Option<V
         let (used, mut diagnostics, sources) = report.compile_unshown(path);
         let code = used.as_ref().and_then(|used| code(args, &used.system, &sources, &mut diagnostics));
         diagnostics.sort();
-        report.show(&diagnostics, &sources);
+        report.show_used(path, CHECK, &diagnostics, &sources);
         Some(Built { path: path.clone(), used: used?, sources, code: code? })
     });
     built.collect::<Vec<_>>().into_iter().collect()

@@ -100,7 +100,7 @@ fn plain(system: &System, errata: &[&Erratum]) -> String {
 
 fn markdown(system: &System, errata: &[&Erratum]) -> String {
     let language = system.language();
-    let cell = docs_gen::escape_markdown;
+    let cell = od_spec::markdown::escape;
     let mut text =
         format!("# Errata: {}\n\n| at | kind | place | prints | read as | because |\n", cell(&system.title));
     text.push_str("|---|---|---|---|---|---|\n");

@@ -533,3 +533,31 @@ fn an_xdd_does_without_what_a_file_says_in_its_own_words_and_it_is_told() {
         );
     }
 }
+
+/// Bits on a command line, as a parameter file has them; and the name of a member alone gets the whole one as a hint.
+#[test]
+fn a_setting_takes_bits_and_members_are_named_in_full() {
+    let scratch = Scratch::new("dcf-bits");
+    let objects = "types: {valves: {base: unsigned8, bits: {0: valve 1, 1: valve 2}, rest: reserved}}
+objects:
+  0x2001: {name: open, type: valves, access: rw, default: []}
+  0x2002: {name: limits, record: {1: {name: lowest, type: unsigned8, access: rw, default: 0}}}
+";
+    scratch.file("lamp.od.yaml", LAMP.replace("objects:\n", objects));
+    let set = |setting: &str| {
+        odgen(&scratch.0, &["--format", "short", "dcf", "lamp.od.yaml", "--node", "5", "--set", setting])
+    };
+    let value = || {
+        let text = fs::read_to_string(scratch.0.join("lamp-5.dcf")).unwrap();
+        let at = text.split("[2001]").nth(1).unwrap();
+        at.lines().find_map(|line| line.strip_prefix("ParameterValue=")).map(str::to_owned)
+    };
+    for (setting, expected) in
+        [("open=[valve 2]", "0x02"), ("open=[valve 1, valve 2]", "0x03"), ("open=[]", "0x00")]
+    {
+        let output = set(setting);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        assert_eq!(value().as_deref(), Some(expected), "{setting}");
+    }
+    assert_snapshot!(["open=[valve]", "lowest=5"].map(|setting| stderr(&set(setting))).concat());
+}

@@ -65,6 +65,50 @@ fn a_mistake_in_a_template_has_a_place_and_nothing_is_written() {
     assert!(!scratch.0.join("out").exists());
 }
 
+/// A template that would never end, or would take all memory, ends with a message, and nothing is written.
+#[test]
+fn templates_without_end_are_stopped() {
+    let scratch = Scratch::new("endless");
+    scratch.file("lamp.od.yaml", LAMP);
+    fs::create_dir(scratch.0.join("own")).unwrap();
+    let thousand = "{% for a in range(1000) %}{% for b in range(1000) %}{% for c in range(1000) %}";
+    let ends = "{% endfor %}{% endfor %}{% endfor %}";
+    let mut said = String::new();
+    for template in [
+        format!("{thousand}{ends}"),
+        "{% macro f(n) %}{{ f(n + 1) }}{{ f(n + 1) }}{% endmacro %}{{ f(0) }}".to_owned(),
+        format!("{thousand}{{{{ 'x' * 1000000 }}}}{ends}"),
+        format!("{thousand}{}{ends}", "x".repeat(10_000)),
+    ] {
+        scratch.file("own/device.txt", &template);
+        let output = odgen(
+            &scratch.0,
+            &["--format", "short", "docs", "lamp.od.yaml", "--templates", "own", "--out", "out"],
+        );
+        assert_eq!((code(&output), stdout(&output)), (1, String::new()));
+        said.push_str(&stderr(&output));
+    }
+    assert_snapshot!(said);
+    assert!(!scratch.0.join("out").exists());
+}
+
+/// File systems take names of 255 bytes.
+#[test]
+fn long_titles_of_chapters_are_names_of_files() {
+    let scratch = Scratch::new("long-titles");
+    let (words, word) = ("very long title ".repeat(30), "ö".repeat(400));
+    let chapters = [&words[..], &format!("{words}other"), &word, &word]
+        .map(|title| format!("  - {{title: {title}, content: [{{text: Here it is.}}]}}\n"));
+    scratch.file("lamp.od.yaml", format!("{LAMP}document:\n{}", chapters.concat()));
+    let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "--format", "md", "--out", "out"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let names = files(&scratch.0.join("out"));
+    let cut = "very-long-title-very-long-title-very-long-title-very-long-title-very-long-title";
+    for name in [cut, "chapter-2", &"oe".repeat(40), "chapter-4"] {
+        assert!(names.contains(&format!("lamp/{name}.md")), "{name}: {names:?}");
+    }
+}
+
 #[test]
 fn templates_are_exported_joined_and_replaced() {
     let scratch = Scratch::new("export");

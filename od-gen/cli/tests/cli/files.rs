@@ -132,6 +132,21 @@ fn where_the_disk_is_full_the_message_names_what_is_written_and_the_next_run_com
     assert!(found != old && found != new);
 }
 
+/// "Nothing was changed" is true of folders, too.
+#[cfg(target_os = "linux")]
+#[test]
+fn where_the_disk_is_full_from_the_start_no_folder_stays() {
+    let scratch = Scratch::new("full-folder");
+    scratch.file("lamps.od.yaml", fleet("b"));
+    let limited =
+        format!("trap '' XFSZ; ulimit -f 0; exec {} {}", env!("CARGO_BIN_EXE_odgen"), BUILD.join(" "));
+    let output = Command::new("sh").current_dir(&scratch.0).args(["-c", &limited]).output().unwrap();
+    let text = stderr(&output);
+    assert_eq!(code(&output), 1, "{text}");
+    assert!(text.contains("nothing was changed"), "{text}");
+    assert!(!scratch.0.join("out").exists(), "{text}");
+}
+
 #[test]
 fn files_that_odgen_did_not_make_are_refused_by_name() {
     let scratch = Scratch::new("foreign-files");

@@ -24,6 +24,8 @@ impl Relay {
         thread::spawn(move || {
             for master in listener.incoming() {
                 let (Ok(master), Ok(nodes)) = (master, TcpStream::connect(&adapter)) else { return };
+                // Lines that wait for each other take 40 ms each.
+                master.set_nodelay(true).and_then(|()| nodes.set_nodelay(true)).unwrap();
                 let (back, there) = (master.try_clone().unwrap(), nodes.try_clone().unwrap());
                 let (up, down) = (Arc::clone(&up), Arc::clone(&down));
                 thread::spawn(move || carry(master, there, &up));

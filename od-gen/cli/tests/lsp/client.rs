@@ -54,15 +54,19 @@ impl Drop for Directory {
 
 /// Runs `odgen lsp`, in which the cache lies in a directory.
 pub(crate) fn spawn(directory: &Directory) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_odgen"))
+    command(directory).stderr(Stdio::inherit()).spawn().unwrap()
+}
+
+/// The same, not yet running.
+pub(crate) fn command(directory: &Directory) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_odgen"));
+    command
         .arg("lsp")
         .env("XDG_CACHE_HOME", directory.0.join("cache"))
         .current_dir(&directory.0)
         .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::inherit())
-        .spawn()
-        .unwrap()
+        .stdout(Stdio::piped());
+    command
 }
 
 /// A message as it goes over the line.

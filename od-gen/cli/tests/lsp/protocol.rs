@@ -1,10 +1,11 @@
 //! The protocol itself: how a session begins, goes on and ends, whatever a client says.
 
-use std::io::{BufReader, Write as _};
+use std::io::{BufReader, Read as _, Write as _};
+use std::process::Stdio;
 
 use serde_json::{Value, json};
 
-use crate::client::{Client, Directory, frame, read, spawn};
+use crate::client::{Client, Directory, command, frame, read, spawn};
 use crate::{LAMP, short};
 
 fn code(error: &Result<Value, Value>) -> i64 {
@@ -34,6 +35,29 @@ fn requests_at_the_wrong_time_are_errors_and_nothing_else_happens() {
     assert_eq!(code(&client.request("shutdown", &Value::Null)), -32600);
     client.notify("exit", &Value::Null);
     assert_eq!(client.ended(), 0);
+}
+
+/// Of something that is no message, the length is named, and the end does not wait for more.
+#[test]
+fn a_length_that_is_none_ends_the_session_with_a_message() {
+    for (header, found) in [
+        ("Content-Length: -5", "-5"),
+        ("Content-Length: many", "many"),
+        ("Content-Length: 18446744073709551615", "18446744073709551615"),
+        ("Content-Length: 99999999999999999999", "99999999999999999999"),
+        ("Content-Type: x", "without a length"),
+    ] {
+        let directory = Directory::new("no-length");
+        let mut server = command(&directory).stderr(Stdio::piped()).spawn().unwrap();
+        // The input stays open.
+        let mut input = server.stdin.take().unwrap();
+        input.write_all(format!("{header}\r\n\r\n{{}}").as_bytes()).unwrap();
+        input.flush().unwrap();
+        let mut said = String::new();
+        server.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        assert_eq!(server.wait().unwrap().code(), Some(1), "{header}");
+        assert!(said.contains("OD0101") && said.contains(found), "{header}: {said}");
+    }
 }
 
 #[test]

@@ -148,7 +148,7 @@ fn names_fit_and_are_given_once() {
 fn texts_do_not_end_early() {
     let text = BUS.replace(
         "special: {0xFFFF: broken}",
-        "special: {0xFFFF: 'it \"is\" bröken\\ Ω'}, about: \"one\\ntwo \\\"three\\\"\\tfour\"",
+        "special: {0xFFFF: \"it \\\"is\\\"\\nbröken\\\\ Ω\"}, about: \"one\\ntwo \\\"three\\\"\\tfour\"",
     );
     let bus = system(&text);
     let (_, text) = written(&[(3, &bus, "sensor")]);

@@ -77,7 +77,7 @@ impl Text {
             self.line(&format!(
                 " SG_ {} : {first}|{count}@1{sign} ({factor},{offset}) [{low}|{high}] {} {receivers}",
                 name.short,
-                quoted(unit)
+                on_one_line(unit)
             ));
         }
         self.line("");
@@ -140,7 +140,7 @@ impl Text {
         for Signal { name, values, .. } in message.signals.iter().filter(|signal| !signal.values.is_empty()) {
             let mut line = format!("VAL_ {} {}", message.id.in_file(), name.short);
             for (raw, text) in values {
-                let _ = write!(line, " {raw} {}", quoted(text));
+                let _ = write!(line, " {raw} {}", on_one_line(text));
             }
             line.push_str(" ;");
             self.line(&line);
@@ -159,7 +159,7 @@ impl Text {
     }
 }
 
-/// A text between quotation marks, in which no other one stands; control characters but for ends of lines are blanks.
+/// A text between quotation marks, in which no other one is; control characters except ends of lines are spaces.
 fn quoted(text: &str) -> String {
     let inner: String = text
         .chars()
@@ -173,4 +173,9 @@ fn quoted(text: &str) -> String {
         })
         .collect();
     format!("\"{}\"", inner.replace('\n', END))
+}
+
+/// The same on one line: tools take several only as a comment.
+fn on_one_line(text: &str) -> String {
+    quoted(&text.replace(['\n', '\r', '\u{2028}', '\u{2029}'], " "))
 }

@@ -353,7 +353,7 @@ fn scalar(shape: Shape) -> Json {
         ),
         Shape::Default => any_of([
             any_text(),
-            at_least_one(Shape::Default),
+            list(Shape::Default),
             object([("type", text("object")), ("additionalProperties", schema(Shape::Default))]),
         ]),
         Shape::Entries => {

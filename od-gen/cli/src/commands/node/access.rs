@@ -14,6 +14,7 @@ use super::confirm::preview;
 use super::doubt::{Untaken, sent};
 use super::had::{had, tell_recovered, values};
 use super::hand::InHand;
+use super::hint::command;
 use super::{Described, Target, on_the_bus, reach};
 use crate::exit::{ERRORS, SUCCESS};
 use crate::interrupt::Interrupt;
@@ -101,7 +102,7 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
         report.show(&diagnostics, &sources);
         return Err(ERRORS);
     }
-    if let Some(command) = meant.iter().find_map(|(id, _)| instead(*id, target.id)) {
+    if let Some(command) = meant.iter().find_map(|(id, _)| instead(*id, target, args)) {
         return Err(report.refuse(command));
     }
     let mut client = reach(&args.node, target, report)?;
@@ -133,23 +134,25 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
         ));
     }
     let question = format!("write {} of {}", values(changes.len()), target.name());
-    args.confirm.ask(&preview(target, &changes), &question, report)?;
+    let store = command("store", &args.spec, target, &args.node);
+    let interrupt = Interrupt::noted_with_hangup();
+    args.confirm.ask(&preview(target, &changes, &store), &question, &interrupt, report)?;
     target.has_started(&mut client, report)?;
-    let code = send(&mut client, target, &meant, report).unwrap_or_else(|code| code);
+    let code = send(&mut client, target, &meant, &interrupt, report).unwrap_or_else(|code| code);
     let started = target.has_started(&mut client, report);
     Ok(started.map_or_else(|failed| code.max(failed), |()| code))
 }
 
 /// What is said of a write that is a command of its own.
-fn instead(id: EntryId, node: u8) -> Option<Diagnostic> {
-    let command = match Role::of(id.index) {
+fn instead(id: EntryId, target: Target<'_>, args: &NodeWriteArgs) -> Option<Diagnostic> {
+    let name = match Role::of(id.index) {
         Role::StoreParameters => "store",
         Role::RestoreDefaults => "load-defaults",
         _ => return None,
     };
     let group = if id.sub == SubIndex(1) { String::new() } else { format!(" --group {}", id.sub) };
     let message = format!("{id} takes a signature, which is a command");
-    let help = format!("write `odgen node {command} --node {node}{group}`");
+    let help = format!("write `{}{group}`", command(name, &args.spec, target, &args.node));
     Some(Diagnostic::without_place(rule_codes::IS_COMMAND, message).help(help))
 }
 
@@ -194,10 +197,10 @@ fn send<B: Bus>(
     client: &mut Client<B>,
     target: Target<'_>,
     meant: &[(EntryId, Value)],
+    interrupt: &Interrupt,
     report: &Report,
 ) -> Result<u8, u8> {
-    let interrupt = Interrupt::noted_with_hangup();
-    let (mut code, mut in_hand) = (SUCCESS, InHand::new(&interrupt));
+    let (mut code, mut in_hand) = (SUCCESS, InHand::new(interrupt));
     for (at, (id, value)) in meant.iter().enumerate() {
         if !in_hand.takes(*id) {
             continue;

@@ -8,6 +8,7 @@ use od_bus::trace::Service;
 use od_spec::diag::{Diagnostic, codes};
 
 use super::confirm::ConfirmArgs;
+use super::specify::SpecifyArgs;
 use crate::bus_nodes::NodesArgs;
 use crate::messages::{Format, Messages};
 use crate::report::{Report, node_id};
@@ -234,6 +235,9 @@ pub(crate) struct NodeScanArgs {
     /// Specifications, EDS, DCF, XDD or XDC files whose devices nodes may be [default: none]
     #[arg(value_name = "SPEC")]
     pub specs: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub specify: SpecifyArgs,
 
     #[command(flatten)]
     pub link: LinkArgs,

@@ -1,14 +1,18 @@
 //! What a command is about to do to a node, and whether it may.
 
 use std::fmt::Write as _;
-use std::io::{BufRead as _, IsTerminal as _, Write as _};
+use std::io::{self, BufRead as _, IsTerminal as _, Write as _};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
 use clap::Args;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{EntryId, Storage, SystemSource};
 
 use super::Target;
-use crate::exit::{ERRORS, SUCCESS, USAGE};
+use crate::exit::{ERRORS, INTERRUPTED, SUCCESS, USAGE};
+use crate::interrupt::Interrupt;
 use crate::report::{Report, print};
 
 /// How a command is allowed to change a node.
@@ -25,7 +29,13 @@ pub(crate) struct ConfirmArgs {
 
 impl ConfirmArgs {
     /// Shows what is about to be done and asks for it; the exit code where it is not to be done.
-    pub(super) fn ask(&self, about: &str, question: &str, report: &Report) -> Result<(), u8> {
+    pub(super) fn ask(
+        &self,
+        about: &str,
+        question: &str,
+        interrupt: &Interrupt,
+        report: &Report,
+    ) -> Result<(), u8> {
         let code = print(about);
         if code != SUCCESS {
             report.note("nothing was sent, because what would be changed cannot be shown");
@@ -38,7 +48,7 @@ impl ConfirmArgs {
             report.note("`--dry-run`: nothing was sent");
             return Err(SUCCESS);
         }
-        if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
+        if !io::stdin().is_terminal() || !io::stderr().is_terminal() {
             let message = format!("nothing was sent, as there is no terminal at which to ask: {question}?");
             report.refuse(
                 Diagnostic::without_place(codes::NO_TERMINAL, message)
@@ -46,14 +56,38 @@ impl ConfirmArgs {
             );
             return Err(USAGE);
         }
-        let mut answer = String::new();
-        let asked = write!(std::io::stderr(), "{question}? [y/N] ");
-        let heard = asked.and_then(|()| std::io::stdin().lock().read_line(&mut answer));
-        if heard.is_ok() && matches!(answer.trim(), "y" | "Y" | "yes") {
+        let answer = write!(io::stderr(), "{question}? [y/N] ").ok().and_then(|()| answer(interrupt));
+        if interrupt.is_wanted() {
+            // The question has no end of its line.
+            let _ = writeln!(io::stderr());
+            report.note("interrupted: nothing was sent");
+            return Err(INTERRUPTED);
+        }
+        if answer.is_some_and(|answer| matches!(answer.trim(), "y" | "Y" | "yes")) {
             return Ok(());
         }
         report.note("nothing was sent");
         Err(ERRORS)
+    }
+}
+
+/// Between two looks whether the user has interrupted the question.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// What the user types; `None` at an interrupt. A signal does not end reading, so another thread reads.
+fn answer(interrupt: &Interrupt) -> Option<String> {
+    let (typed, answers) = mpsc::channel();
+    thread::spawn(move || {
+        let mut line = String::new();
+        let read = io::stdin().lock().read_line(&mut line);
+        let _ = typed.send(read.ok().map(|_| line));
+    });
+    loop {
+        match answers.recv_timeout(LOOK) {
+            Ok(answer) => return answer,
+            Err(RecvTimeoutError::Timeout) if !interrupt.is_wanted() => {}
+            Err(RecvTimeoutError::Timeout | RecvTimeoutError::Disconnected) => return None,
+        }
     }
 }
 
@@ -69,8 +103,8 @@ pub(super) struct Change {
 const NAMED: usize = 4;
 
 /// What is about to be written to a node: each value as it is and as it will be, with the warnings of its entry; and what will not
-/// outlast a reset.
-pub(super) fn preview(target: Target<'_>, changes: &[Change]) -> String {
+/// outlast a reset, with the command `store` that prevents it.
+pub(super) fn preview(target: Target<'_>, changes: &[Change], store: &str) -> String {
     let mut text = String::new();
     for change in changes {
         let name = target.words().entry(change.id);
@@ -105,9 +139,8 @@ pub(super) fn preview(target: Target<'_>, changes: &[Change]) -> String {
         if !on_command.is_empty() {
             let _ = writeln!(
                 text,
-                "{}lost with a reset unless stored (`odgen node store --node {}`): {}",
+                "{}lost with a reset unless stored (`{store}`): {}",
                 target.mark(),
-                target.id,
                 named(target, &on_command)
             );
         }

@@ -7,6 +7,7 @@ mod confirm;
 mod doubt;
 mod had;
 mod hand;
+mod hint;
 mod keep;
 mod machine;
 mod monitor;
@@ -16,6 +17,7 @@ mod program;
 mod reach;
 mod restore;
 mod sign;
+mod specify;
 mod taken;
 
 use std::cell::OnceCell;
@@ -38,6 +40,7 @@ use machine::Machine;
 use reach::{connect, has_started, is_meant, reach};
 
 pub(crate) fn run(args: &NodeArgs, directory: &Path, report: &Report) -> u8 {
+    let report = &report.for_operators();
     let done = match &args.command {
         NodeCommand::Read(args) => access::read(args, report),
         NodeCommand::Write(args) => access::write(args, report),

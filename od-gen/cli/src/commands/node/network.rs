@@ -1,14 +1,16 @@
 //! `odgen node scan` and `nmt`: what needs no dictionary.
 
 use std::fmt::Write as _;
+use std::path::PathBuf;
 use std::time::Duration;
 
-use od_bus::client::{Answer, BusError, Heard, Identity};
+use od_bus::client::{Answer, BusError, Heard, Identity, Revision};
 use od_formats::nmt;
 use od_spec::diag::{Diagnostic, codes};
 
 use super::args::{NmtName, NodeNmtArgs, NodeScanArgs};
 use super::connect;
+use super::specify::{self, Wanted};
 use crate::exit::ERRORS;
 use crate::report::{Report, node_id, print, shown};
 use crate::specs;
@@ -37,6 +39,14 @@ pub(super) fn scan(args: &NodeScanArgs, report: &Report) -> Result<u8, u8> {
         }));
     }
     let mut client = connect(&args.link, report)?;
+    let specify = |client: &mut _, node, file: &PathBuf| {
+        let wanted = Wanted { node, bit_rate: args.link.bit_rate, file, args: &args.specify };
+        specify::specify(client, wanted, report)
+    };
+    if let (Some(file), Some(node)) = (&args.specify.write_spec, &args.specify.node) {
+        let node = node_id(node).map_err(|diagnostic| report.refuse(diagnostic))?;
+        return specify(&mut client, node, file);
+    }
     let within = Duration::from_millis(args.link.timeout.into());
     let found = od_bus::client::scan(&mut client, within).map_err(|error| report.refuse(broken(&error)))?;
     if found.is_empty() {
@@ -50,12 +60,32 @@ pub(super) fn scan(args: &NodeScanArgs, report: &Report) -> Result<u8, u8> {
     let shared = found.iter().filter(|heard| heard.answer == Answer::Two);
     let shared: Vec<String> = shared.map(|heard| heard.node.to_string()).collect();
     if shared.is_empty() {
-        return Ok(code);
+        return match &args.specify.write_spec {
+            None => Ok(code),
+            Some(file) => {
+                let node = only(&found).map_err(|diagnostic| report.refuse(*diagnostic))?;
+                specify(&mut client, node, file).map(|written| code.max(written))
+            }
+        };
     }
     let message = format!("two devices have one node-ID: {}", shared.join(", "));
     Err(report.refuse(Diagnostic::without_place(codes::BAD_NODE_ID, message).help(
         "switch one of them off, and give the other one a node-ID of its own: by its switches, or by LSS",
     )))
+}
+
+/// The only node that answers.
+fn only(found: &[Heard]) -> Result<u8, Box<Diagnostic>> {
+    let answering: Vec<u8> =
+        found.iter().filter(|heard| heard.answer != Answer::None).map(|heard| heard.node).collect();
+    if let [only] = answering.as_slice() {
+        return Ok(*only);
+    }
+    let message = match answering.len() {
+        0 => "no node answers, and a specification is made from answers".to_owned(),
+        count => format!("a specification is of one node, and {count} answer"),
+    };
+    Err(Box::new(Diagnostic::without_place(codes::BAD_NODE_ID, message).help("add `--node ID`")))
 }
 
 /// The lines about a node.
@@ -80,8 +110,12 @@ fn described(heard: &Heard, known: &[(String, Identity)]) -> String {
         text.push_str("    none of the specifications fits\n");
     }
     for (device, known) in fits {
-        let is_other = known.revision.is_some() && known.revision != identity.revision;
-        let remark = if is_other { ", of another revision" } else { "" };
+        let remark = match Revision::of(identity, known) {
+            Revision::Same => "",
+            Revision::Newer => ", of a newer revision, which is compatible",
+            Revision::Other => ", of another revision",
+            Revision::Untold => ", of an unknown revision",
+        };
         let _ = writeln!(text, "    can be {device}{remark}");
     }
     text

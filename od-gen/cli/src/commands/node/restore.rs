@@ -14,6 +14,7 @@ use super::confirm::{Change, preview};
 use super::doubt::{Presence, Untaken, Unwritten, sent};
 use super::had::{Had, had, values, words};
 use super::hand::{InHand, pdo_of};
+use super::hint::command;
 use super::outcome::{Outcome, State, worse};
 use super::{Target, is_meant, on_the_bus};
 use crate::exit::{ERRORS, INTERRUPTED, SUCCESS};
@@ -48,17 +49,20 @@ pub(super) fn restored<'a, B: Bus>(
             *plan = Err(code);
         }
     }
-    let of_plan = |plan: &Planned<'_, '_>| preview(plan.beside.target, &plan.changes);
+    let of_plan = |plan: &Planned<'_, '_>| {
+        let target = plan.beside.target;
+        preview(target, &plan.changes, &command("store", &args.file.spec, target, &args.file.node))
+    };
     let about: String = plans.iter().flatten().map(of_plan).collect();
     if plans.iter().any(Result::is_err) {
         let printed = print(&about);
         return Ok(left_alone(all, &plans, printed, report));
     }
     let plans: Vec<Planned<'_, '_>> = plans.into_iter().flatten().collect();
-    if let Some(question) = question(&plans) {
-        args.confirm.ask(&about, &question, report)?;
-    }
     let (interrupt, mut outcomes) = (Interrupt::noted_with_hangup(), Vec::new());
+    if let Some(question) = question(&plans) {
+        args.confirm.ask(&about, &question, &interrupt, report)?;
+    }
     for plan in &plans {
         let target = plan.beside.target;
         if interrupt.is_wanted() {

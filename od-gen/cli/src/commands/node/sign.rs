@@ -71,6 +71,7 @@ fn sign(
     args.confirm.ask(
         &format!("{name} is told to {what} ({id})\n{about}"),
         &format!("let {name} {what}"),
+        &Interrupt::noted(),
         report,
     )?;
     has_started(&mut client, node, &name, report)?;

@@ -204,7 +204,7 @@ fn bits(fields: &[BitField]) -> Json {
     with_value.for_each(|(name, schema)| properties.add(name, schema));
     one.insert(1, ("properties".to_owned(), Json::Object(properties.list)));
     let items = any_of([object([("enum", texts(single.iter().map(String::as_str)))]), Json::Object(one)]);
-    object([("type", text("array")), ("items", items), ("minItems", Json::Number(1))])
+    object([("type", text("array")), ("items", items)])
 }
 
 /// `{node: 5, time: 3000 ms}`.

@@ -29,8 +29,8 @@ pub(super) fn program(args: &NodeProgramArgs, report: &Report) -> Result<u8, u8>
     let running = number(&mut client, target, Some(places.control), report)?.and_then(state);
     let about = preview(args, target, places, data.len(), (before, running));
     let question = format!("load program {} of {}", args.program, target.name());
-    args.confirm.ask(&about, &question, report)?;
     let interrupt = Interrupt::noted_with_hangup();
+    args.confirm.ask(&about, &question, &interrupt, report)?;
     let mut download = Download::new(&mut client, target, places, args, &interrupt, report);
     if let Err(failure) = download.carry_out(&data) {
         let is_interrupted = failure.is_interrupt();
