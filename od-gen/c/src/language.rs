@@ -141,7 +141,8 @@ pub(super) fn is_reserved(name: &str) -> bool {
 pub(crate) struct C;
 
 impl Language for C {
-    fn identifier(&self, role: Role, words: &Words) -> String {
+    fn identifier(&self, _: ScopeKind, role: Role, words: &Words) -> String {
+        // Names of a scope stand behind that of the device and of the scope.
         match role {
             // No such word is written in capitals.
             Role::Variant | Role::Constant => words.screaming(),
@@ -160,11 +161,6 @@ impl Language for C {
     fn alternatives(&self, variants: &[&str]) -> String {
         variants.join("_OR_")
     }
-
-    fn reserved(&self, _: ScopeKind) -> &'static [&'static str] {
-        // Names of a scope stand behind that of the device and of the scope.
-        &[]
-    }
 }
 
 #[cfg(test)]
@@ -180,13 +176,13 @@ mod tests {
 
     #[test]
     fn words_of_the_languages_are_no_identifiers() {
-        let field = |name: &str| C.identifier(Role::Field, &Words::of(name));
+        let field = |name: &str| C.identifier(ScopeKind::Fields, Role::Field, &Words::of(name));
         assert_eq!(
             (field("register").as_str(), field("actual speed").as_str()),
             ("register_", "actual_speed")
         );
         assert_eq!((field("class").as_str(), field("24V").as_str()), ("class_", "n24v"));
-        assert_eq!(C.identifier(Role::Constant, &Words::of("register")), "REGISTER");
+        assert_eq!(C.identifier(ScopeKind::TypeMembers, Role::Constant, &Words::of("register")), "REGISTER");
         assert!(RESERVED.is_sorted());
     }
 

@@ -46,18 +46,18 @@ pub fn artifacts<'a>(
     if kinds.is_empty() {
         return Vec::new();
     }
-    let (before, _) = diagnostics.count();
+    let before = diagnostics.errors_found();
     let mut register = Register::default();
     let mut set = Vec::new();
     for device in devices {
         let device = decided(system, device, &C);
         let plan = plan(system, &device, &C, diagnostics);
         // What follows from a plan that is not whole would be reported once more.
-        if diagnostics.count().0 == before {
+        if diagnostics.errors_found() == before {
             set.extend(of_device(&plan, provenance, kinds, &mut register, diagnostics));
         }
     }
-    if diagnostics.count().0 == before { set } else { Vec::new() }
+    if diagnostics.errors_found() == before { set } else { Vec::new() }
 }
 
 /// What the files of all devices include, each once however many there are.

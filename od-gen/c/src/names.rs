@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use od_gen::plan::{Language, Role, Words};
+use od_gen::plan::{Language, Role, ScopeKind, Words};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::Dictionary;
 
@@ -13,7 +13,8 @@ const TAKEN: [&str; 5] = ["co", "od", "oda", "odr", "odt"];
 
 /// The folder of a device, and what begins its names: `pmc`; `device_od` of a device `od`, as others have names that begin so.
 pub(super) fn prefix(key: &str) -> String {
-    let name = C.identifier(Role::Type, &Words::of(key)).trim_end_matches('_').to_owned();
+    let name =
+        C.identifier(ScopeKind::Dictionary, Role::Type, &Words::of(key)).trim_end_matches('_').to_owned();
     let first = name.split('_').next().unwrap_or_default();
     if TAKEN.contains(&first) { format!("device_{name}") } else { name }
 }

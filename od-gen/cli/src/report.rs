@@ -173,14 +173,20 @@ impl Report {
 
     /// [`compile`](Self::compile), with the node of a DCF and the texts that were read.
     pub(crate) fn compile_with_sources(&self, path: &Path) -> Option<(Used, SourceMap)> {
+        let (used, diagnostics, sources) = self.compile_unshown(path);
+        self.show_used(path, CHECK, &diagnostics, &sources);
+        Some((used?, sources))
+    }
+
+    /// [`compile_with_sources`](Self::compile_with_sources), for somebody who has more to say and shows it together.
+    pub(crate) fn compile_unshown(&self, path: &Path) -> (Option<Used>, Diagnostics, SourceMap) {
         let mut sources = SourceMap::new();
         let mut compiled = compile_file(path, &mut sources, &mut self.loader());
         if let Some(line) = condense(path, &mut compiled) {
             self.note(&line);
         }
         let Compiled { system, node, diagnostics, .. } = compiled;
-        self.show_used(path, CHECK, &diagnostics, &sources);
-        Some((Used { system: system?, node, device: None }, sources))
+        (system.map(|system| Used { system, node, device: None }), diagnostics, sources)
     }
 
     /// The node of a DCF with this node-ID, or else its own; with a warning about what does not follow the node-ID.

@@ -14,6 +14,7 @@ use super::{
 };
 
 /// The scopes in which objects and entries have names.
+#[derive(Default)]
 struct Scopes {
     accessors: Scope,
     groups: Scope,
@@ -31,16 +32,11 @@ struct Parent<'a> {
 
 impl<'a> Plan<'a> {
     pub(super) fn objects(&mut self, diagnostics: &mut Diagnostics) {
-        let mut scopes = Scopes {
-            accessors: self.scope(ScopeKind::Accessors),
-            groups: self.scope(ScopeKind::Groups),
-            entries: self.scope(ScopeKind::Entries),
-            fields: self.scope(ScopeKind::Fields),
-        };
+        let mut scopes = Scopes::default();
         for object in self.device.objects.values() {
             let what = format!("{} ({})", object.index, object.name);
             let words = Words::of(object.label());
-            let name = self.language.identifier(Role::Function, &words);
+            let name = self.language.identifier(ScopeKind::Accessors, Role::Function, &words);
             // What follows from a name that is refused is refused with it.
             if !scopes.accessors.claim(&name, &what, object.span, diagnostics) {
                 continue;
@@ -50,7 +46,7 @@ impl<'a> Plan<'a> {
             let first = object.entries.first().map(|entry| EntryId { index: object.index, sub: entry.sub });
             let Some(first_row) = first.and_then(|id| self.row(id)) else { continue };
             let parent = Parent { object, position: self.objects.len(), words };
-            let mut members = self.scope(ScopeKind::GroupMembers);
+            let mut members = Scope::default();
             for entry in &object.entries {
                 self.push_entry(&parent, entry, &mut members, &mut scopes, diagnostics);
             }
@@ -106,9 +102,9 @@ impl<'a> Plan<'a> {
         let label = entry.label();
         let words =
             if parent.object.is_structured() { parent.words.and(label) } else { parent.words.clone() };
-        let member = self.identifier(Role::Function, label);
-        let name = self.language.identifier(Role::Field, &words);
-        let variant = self.language.identifier(Role::Variant, &words);
+        let member = self.identifier(ScopeKind::GroupMembers, Role::Function, label);
+        let name = self.language.identifier(ScopeKind::Fields, Role::Field, &words);
+        let variant = self.language.identifier(ScopeKind::Entries, Role::Variant, &words);
         let what = format!("{id} ({})", entry.name);
         let setter = self.language.companion(Companion::Setter, &member);
         let its_setter = Companion::Setter.describe(&what);
@@ -233,10 +229,11 @@ impl<'a> Plan<'a> {
         let fixed = elements.iter().all(|entry| entry.data_type.bits().is_some());
         if are_alike(elements) && gapless && fixed && lies_in_a_row(object, elements, &self.layout) {
             let changes = sub0.access.is_writable() || object.index.0 == 0x1003;
-            let count = || self.language.identifier(Role::Function, &words.and(sub0.label()));
+            let words = words.and(sub0.label());
+            let count = || self.language.identifier(ScopeKind::Accessors, Role::Function, &words);
             Shape::Indexed { count: changes.then(count) }
         } else {
-            Shape::Group { type_name: self.language.identifier(Role::Type, words) }
+            Shape::Group { type_name: self.language.identifier(ScopeKind::Groups, Role::Type, words) }
         }
     }
 

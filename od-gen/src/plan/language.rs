@@ -4,17 +4,15 @@ use super::names::Words;
 
 /// A language that plans are printed in.
 pub trait Language {
-    /// The identifier that words become, which is no keyword; empty where there are no words.
-    fn identifier(&self, role: Role, words: &Words) -> String;
+    /// The identifier that words become in a scope, which is no keyword and nothing that the printed code needs there itself;
+    /// empty where there are no words.
+    fn identifier(&self, scope: ScopeKind, role: Role, words: &Words) -> String;
 
     /// The further identifier that the language's printer makes from one; `None` where it makes none.
     fn companion(&self, companion: Companion, identifier: &str) -> Option<String>;
 
     /// The identifier of a type that has one of some variants, from their identifiers.
     fn alternatives(&self, variants: &[&str]) -> String;
-
-    /// Identifiers of a scope that the printed code needs itself.
-    fn reserved(&self, scope: ScopeKind) -> &'static [&'static str];
 }
 
 /// What an identifier names. A language may spell each in its own way.

@@ -448,9 +448,8 @@ pub fn plan<'a>(
             ),
         );
     }
-    let name = language.identifier(Role::Type, &Words::of(&device.key));
-    let mut dictionaries = Scope::with_reserved(language.reserved(ScopeKind::Dictionary));
-    dictionaries.claim(&name, &format!("device `{}`", device.key), device.span, diagnostics);
+    let name = language.identifier(ScopeKind::Dictionary, Role::Type, &Words::of(&device.key));
+    Scope::default().claim(&name, &format!("device `{}`", device.key), device.span, diagnostics);
     let rows = rows(device, diagnostics);
     let mut plan = Plan {
         system,
@@ -523,13 +522,13 @@ impl<'a> Plan<'a> {
     }
 
     /// The identifier that a name becomes.
-    fn identifier(&self, role: Role, name: &str) -> String {
-        self.language.identifier(role, &Words::of(name))
+    fn identifier(&self, scope: ScopeKind, role: Role, name: &str) -> String {
+        self.language.identifier(scope, role, &Words::of(name))
     }
 
-    /// An empty scope.
-    fn scope(&self, kind: ScopeKind) -> Scope {
-        Scope::with_reserved(self.language.reserved(kind))
+    /// The place of a name, or that of the device where the name comes from a library.
+    fn place(&self, span: Span) -> Span {
+        if span.file.is_one_with(self.device.span.file) { span } else { self.device.span }
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use od_spec::ascii::transliterate;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::rule_codes::ALIKE_NAMES;
 use od_spec::source::Span;
 
 /// The words of a name in lower case: letters and digits of ASCII, after transliteration.
@@ -76,21 +77,15 @@ pub(super) struct Scope {
 #[derive(Debug)]
 struct Owner {
     what: String,
-    /// `None` for what generated code always has.
+    /// `None` for objects by number.
     span: Option<Span>,
+    /// Whether it is told already that something else would have the identifier, too.
+    is_told: bool,
 }
 
 impl Scope {
-    /// A scope in which generated code needs some identifiers itself.
-    pub(super) fn with_reserved(identifiers: &[&str]) -> Self {
-        let of_generated_code = |identifier: &&str| {
-            let owner = Owner { what: "generated code itself".to_owned(), span: None };
-            ((*identifier).to_owned(), owner)
-        };
-        Self { taken: identifiers.iter().map(of_generated_code).collect() }
-    }
-
-    /// Gives an identifier to `what`, or reports why it cannot have it and returns `false`.
+    /// Gives an identifier to `what`, or reports why it cannot have it and returns `false`. What the check warned of is an
+    /// error then, and not reported once more.
     pub(super) fn claim(
         &mut self,
         identifier: &str,
@@ -111,7 +106,10 @@ impl Scope {
             );
             return false;
         }
-        if let Some(owner) = self.taken.get(identifier) {
+        if let Some(owner) = self.taken.get_mut(identifier) {
+            if std::mem::replace(&mut owner.is_told, true) || diagnostics.harden(ALIKE_NAMES, span) {
+                return false;
+            }
             let diagnostic = Diagnostic::new(
                 codes::IDENTIFIER_CLASH,
                 span,
@@ -123,7 +121,8 @@ impl Scope {
             });
             return false;
         }
-        self.taken.insert(identifier.to_owned(), Owner { what: what.to_owned(), span: Some(span) });
+        let owner = Owner { what: what.to_owned(), span: Some(span), is_told: false };
+        self.taken.insert(identifier.to_owned(), owner);
         true
     }
 
@@ -131,7 +130,7 @@ impl Scope {
     pub(super) fn claim_if_free(&mut self, identifiers: &[&str]) -> bool {
         let free = identifiers.iter().all(|one| !one.is_empty() && !self.taken.contains_key(*one));
         if free {
-            let owner = || Owner { what: "objects by number".to_owned(), span: None };
+            let owner = || Owner { what: "objects by number".to_owned(), span: None, is_told: false };
             self.taken.extend(identifiers.iter().map(|one| ((*one).to_owned(), owner())));
         }
         free
@@ -154,5 +153,32 @@ mod tests {
         assert_eq!(camel("24V supply"), "N24vSupply");
         assert_eq!(Words::of("lithium ion type 1").screaming(), "LITHIUM_ION_TYPE_1");
         assert_eq!(Words::of("24V").and("supply status").snake(), "n24v_supply_status");
+    }
+
+    #[test]
+    fn the_check_knows_which_names_give_one_identifier() {
+        let names = [
+            "on",
+            "On!",
+            "word 1",
+            "Word1",
+            "1 0",
+            "10",
+            "phase 1 a",
+            "phase 1a",
+            "on line",
+            "online",
+            "Größe",
+            "groesse",
+            "+",
+        ];
+        for (one, other) in names.iter().flat_map(|one| names.iter().map(move |other| (*one, *other))) {
+            let is_one = Words::of(one).camel() == Words::of(other).camel();
+            assert_eq!(
+                od_spec::ascii::letters(one) == od_spec::ascii::letters(other),
+                is_one,
+                "{one} {other}"
+            );
+        }
     }
 }

@@ -1,14 +1,16 @@
 //! What entries are together: PDOs, state machines, error codes and constraints.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use od_spec::diag::Diagnostics;
 use od_spec::expr::Expr;
 use od_spec::model::{DataType, EntryId, Index, Pdo, PdoTarget, StateMachine, SubIndex, SystemSource, Value};
+use od_spec::source::Span;
 
 use super::condition::{self, Unusable};
 use super::language::{Role, ScopeKind};
 use super::layout::Place;
+use super::names::Scope;
 use super::{
     Plan, PlannedConstraint, PlannedError, PlannedField, PlannedMachine, PlannedPdo, ServedPdo, too_large,
 };
@@ -16,9 +18,13 @@ use super::{
 impl Plan<'_> {
     pub(super) fn pdos(&mut self, diagnostics: &mut Diagnostics) {
         for pdo in &self.device.pdos {
-            let name = self.identifier(Role::Type, &format!("{}{}", pdo.direction.pdo(), pdo.number));
+            let name = self.identifier(
+                ScopeKind::Dictionary,
+                Role::Type,
+                &format!("{}{}", pdo.direction.pdo(), pdo.number),
+            );
             let mut fields = Vec::new();
-            let mut scope = self.scope(ScopeKind::PdoFields);
+            let mut scope = Scope::default();
             for field in pdo.fields() {
                 if let PdoTarget::Entry(id) = field.mapped.target
                     && let Some(row) = self.row(id)
@@ -42,7 +48,10 @@ impl Plan<'_> {
             SystemSource::Specification => entry.to_owned(),
             SystemSource::Eds => [entry.to_owned()]
                 .into_iter()
-                .chain((2..=before.len() + 1).map(|n| self.identifier(Role::Field, &format!("{entry} {n}"))))
+                .chain(
+                    (2..=before.len() + 1)
+                        .map(|n| self.identifier(ScopeKind::PdoFields, Role::Field, &format!("{entry} {n}"))),
+                )
                 .find(is_free)
                 .unwrap_or_else(|| entry.to_owned()),
         }
@@ -98,16 +107,17 @@ impl Plan<'_> {
 
     pub(super) fn machines(&mut self, diagnostics: &mut Diagnostics) {
         let (system, device) = (self.system, self.device);
-        let mut scope = self.scope(ScopeKind::Machines);
+        let mut scope = Scope::default();
         for machine in system.machines.values().filter(|machine| machine.devices.includes(&device.key)) {
             let (Some(status), Some(command)) = (self.row(machine.status), self.row(machine.command)) else {
                 continue;
             };
-            let name = self.identifier(Role::Type, &machine.name);
-            scope.claim(&name, &format!("state machine `{}`", machine.name), device.span, diagnostics);
-            let states = machine.states.iter().map(|state| state.name.as_str());
+            let name = self.identifier(ScopeKind::Machines, Role::Type, &machine.name);
+            let what = format!("state machine `{}`", machine.name);
+            scope.claim(&name, &what, self.place(machine.span), diagnostics);
+            let states = machine.states.iter().map(|state| (state.name.as_str(), state.span));
             let states = self.machine_variants(machine, "state", states, diagnostics);
-            let commands = machine.commands.iter().map(|command| command.name.as_str());
+            let commands = machine.commands.iter().map(|command| (command.name.as_str(), command.span));
             let commands = self.machine_variants(machine, "command", commands, diagnostics);
             self.machines.push(PlannedMachine { machine, name, status, command, states, commands });
         }
@@ -118,14 +128,14 @@ impl Plan<'_> {
         &self,
         machine: &StateMachine,
         what: &str,
-        names: impl Iterator<Item = &'n str>,
+        names: impl Iterator<Item = (&'n str, Span)>,
         diagnostics: &mut Diagnostics,
     ) -> Vec<String> {
-        let mut scope = self.scope(ScopeKind::MachineVariants);
-        let identifiers = names.map(|name| {
-            let identifier = self.identifier(Role::Variant, name);
+        let mut scope = Scope::default();
+        let identifiers = names.map(|(name, span)| {
+            let identifier = self.identifier(ScopeKind::MachineVariants, Role::Variant, name);
             let what = format!("{what} `{name}` of `{}`", machine.name);
-            scope.claim(&identifier, &what, self.device.span, diagnostics);
+            scope.claim(&identifier, &what, self.place(span), diagnostics);
             identifier
         });
         identifiers.collect()
@@ -133,24 +143,29 @@ impl Plan<'_> {
 
     pub(super) fn errors(&mut self, diagnostics: &mut Diagnostics) {
         let (system, device) = (self.system, self.device);
-        let (mut scope, mut variants) = (self.scope(ScopeKind::Errors), self.scope(ScopeKind::Errors));
+        let (mut scope, mut variants) = (Scope::default(), Scope::default());
         for error in &system.errors {
             if error.devices.includes(&device.key) {
-                let name = self.identifier(Role::Constant, &error.name);
-                let what = format!("error {:04X}h", error.code);
-                scope.claim(&name, &what, device.span, diagnostics);
-                let variant = self.identifier(Role::Variant, &error.name);
-                variants.claim(&variant, &what, device.span, diagnostics);
+                let name = self.identifier(ScopeKind::Errors, Role::Constant, &error.name);
+                let (what, place) = (format!("error {:04X}h", error.code), self.place(error.span));
+                let variant = self.identifier(ScopeKind::Errors, Role::Variant, &error.name);
+                if scope.claim(&name, &what, place, diagnostics) {
+                    variants.claim(&variant, &what, place, diagnostics);
+                }
                 self.errors.push(PlannedError { name, variant, error });
             }
         }
         let treated = self.errors.iter().filter(|planned| planned.error.treated_by.includes(&device.key));
-        let priorities: BTreeSet<&String> =
-            treated.filter_map(|planned| planned.error.priority.as_ref()).collect();
-        let mut scope = self.scope(ScopeKind::Errors);
-        let priorities = priorities.into_iter().map(|priority| {
-            let variant = self.identifier(Role::Variant, priority);
-            scope.claim(&variant, &format!("priority `{priority}`"), device.span, diagnostics);
+        let mut priorities: BTreeMap<&String, Span> = BTreeMap::new();
+        for planned in treated {
+            if let Some(priority) = &planned.error.priority {
+                priorities.entry(priority).or_insert(planned.error.span);
+            }
+        }
+        let mut scope = Scope::default();
+        let priorities = priorities.into_iter().map(|(priority, span)| {
+            let variant = self.identifier(ScopeKind::Errors, Role::Variant, priority);
+            scope.claim(&variant, &format!("priority `{priority}`"), self.place(span), diagnostics);
             (variant, priority.clone())
         });
         self.priorities = priorities.collect();
@@ -158,7 +173,7 @@ impl Plan<'_> {
 
     pub(super) fn plan_constraints(&mut self, diagnostics: &mut Diagnostics) {
         let (system, device) = (self.system, self.device);
-        let mut scope = self.scope(ScopeKind::Constraints);
+        let mut scope = Scope::default();
         for constraint in
             system.constraints.iter().filter(|constraint| constraint.devices.includes(&device.key))
         {
@@ -183,7 +198,7 @@ impl Plan<'_> {
                     continue;
                 }
             };
-            let function = self.identifier(Role::Function, &constraint.name);
+            let function = self.identifier(ScopeKind::Constraints, Role::Function, &constraint.name);
             scope.claim(
                 &function,
                 &format!("constraint `{}`", constraint.name),

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::groups::{Groups, is_accessible};
-use super::language::{Companion, Role};
+use super::language::{Companion, Role, ScopeKind};
 use super::names::{Scope, Words};
 use super::{Place, Plan, PlannedEntry, PlannedObject, Shape};
 
@@ -47,7 +47,7 @@ impl Plan<'_> {
         }
         let groups = self.groups();
         for ((words, _), numbered) in by_pattern {
-            let name = self.language.identifier(Role::Function, &words);
+            let name = self.language.identifier(ScopeKind::Accessors, Role::Function, &words);
             let Some((first, steps)) = self.run(&numbered, &groups) else { continue };
             let companion = self.language.companion(self.companion(&numbered), &name);
             let names: Vec<&str> = [name.as_str()].into_iter().chain(companion.as_deref()).collect();

@@ -6,6 +6,7 @@ use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{
     BitField, BitUsage, DataType, Entry, EnumValue, ModeMeaning, NamedType, Ratio, TypeKind, Unit,
 };
+use od_spec::rule_codes::ALIKE_NAMES;
 
 use super::language::{Companion, Role, ScopeKind};
 use super::names::Scope;
@@ -31,10 +32,10 @@ impl<'a> Plan<'a> {
     }
 
     fn plan_units(&mut self, units: impl Iterator<Item = &'a Unit>, diagnostics: &mut Diagnostics) {
-        let span = self.device.span;
-        let mut scope = self.scope(ScopeKind::Units);
+        let mut scope = Scope::default();
         for unit in units {
-            let name = self.identifier(Role::Type, &unit.name);
+            let span = self.place(unit.stated.span);
+            let name = self.identifier(ScopeKind::Units, Role::Type, &unit.name);
             scope.claim(&name, &format!("unit `{}`", unit.name), span, diagnostics);
             let (Some(scale), Some(step)) = (fraction(unit.scale), unit.step().and_then(fraction)) else {
                 diagnostics.push(too_large(span, &format!("the scale of unit `{}`", unit.name)));
@@ -55,10 +56,10 @@ impl<'a> Plan<'a> {
     }
 
     fn plan_types(&mut self, types: impl Iterator<Item = &'a NamedType>, diagnostics: &mut Diagnostics) {
-        let span = self.device.span;
-        let mut scope = self.scope(ScopeKind::Types);
+        let mut scope = Scope::default();
         for named in types {
-            let name = self.identifier(Role::Type, &named.name);
+            let span = self.place(named.stated.span);
+            let name = self.identifier(ScopeKind::Types, Role::Type, &named.name);
             scope.claim(&name, &format!("type `{}`", named.name), span, diagnostics);
             if matches!(named.kind, TypeKind::Enum(_)) && named.base == DataType::Unsigned64 {
                 diagnostics.push(too_large(span, &format!("enum `{}`", named.name)));
@@ -69,10 +70,11 @@ impl<'a> Plan<'a> {
     }
 
     pub(super) fn kind(&mut self, entry: &Entry, diagnostics: &mut Diagnostics) -> ValueKind {
-        let named = entry.named_type.as_deref().map(|named| self.identifier(Role::Type, &named.name));
+        let named = entry.named_type.as_deref();
+        let named = named.map(|named| self.identifier(ScopeKind::Types, Role::Type, &named.name));
         let integer = entry.data_type.is_integer() && named.is_none();
-        let unit =
-            entry.unit.as_deref().filter(|_| integer).map(|unit| self.identifier(Role::Type, &unit.name));
+        let unit = entry.unit.as_deref().filter(|_| integer);
+        let unit = unit.map(|unit| self.identifier(ScopeKind::Units, Role::Type, &unit.name));
         let special = (integer && !entry.special.is_empty()).then(|| self.special(entry, diagnostics));
         ValueKind { data_type: entry.data_type, named, unit, special }
     }
@@ -84,7 +86,7 @@ impl<'a> Plan<'a> {
             .special
             .iter()
             .map(|special| PlannedSpecialValue {
-                name: self.identifier(Role::Variant, &special.name),
+                name: self.identifier(ScopeKind::SpecialValues, Role::Variant, &special.name),
                 text: special.name.clone(),
                 value: special.value,
             })
@@ -96,7 +98,8 @@ impl<'a> Plan<'a> {
         }
         let mut of_name = self.specials.iter().filter(|planned| planned.name == set.name);
         let one_type = of_name.next();
-        if one_type.is_some_and(|other| !set.has_meanings_of(other)) {
+        let mut was_said = || entry.special.iter().any(|one| diagnostics.harden(ALIKE_NAMES, one.place.span));
+        if one_type.is_some_and(|other| !set.has_meanings_of(other)) && !was_said() {
             diagnostics.push(
                 Diagnostic::new(
                     codes::IDENTIFIER_CLASH,
@@ -108,16 +111,17 @@ impl<'a> Plan<'a> {
                 ),
             );
         }
-        let mut scope = self.scope(ScopeKind::SpecialValues);
-        for PlannedSpecialValue { name, text, .. } in &set.values {
-            scope.claim(name, &format!("special value `{text}`"), entry.span, diagnostics);
+        let mut scope = Scope::default();
+        for (PlannedSpecialValue { name, text, .. }, special) in set.values.iter().zip(&entry.special) {
+            let place = self.place(special.place.span);
+            scope.claim(name, &format!("special value `{text}`"), place, diagnostics);
         }
         self.specials.push(set);
         self.specials.len() - 1
     }
 
     fn members(&self, named: &'a NamedType, diagnostics: &mut Diagnostics) -> Members<'a> {
-        let mut scope = self.scope(ScopeKind::TypeMembers);
+        let mut scope = Scope::default();
         match &named.kind {
             TypeKind::Enum(values) => {
                 Members::Values(self.constants("", values, named, &mut scope, diagnostics))
@@ -139,7 +143,7 @@ impl<'a> Plan<'a> {
         scope: &mut Scope,
         diagnostics: &mut Diagnostics,
     ) -> Vec<PlannedBits<'a>> {
-        let span = self.device.span;
+        let span = self.place(field.place.span);
         let general = [(field.name.clone(), &field.about)].into_iter().filter(|(name, _)| !name.is_empty());
         let has_name = |meaning: &&ModeMeaning| !matches!(meaning.name.as_str(), "reserved" | "unused");
         let modes = field
@@ -149,7 +153,7 @@ impl<'a> Plan<'a> {
             .map(|one| (format!("{} {}", one.mode.value, one.name), &one.about));
         let labels = general.chain(modes);
         let planned = labels.map(|(label, about)| {
-            let name = self.identifier(Role::Function, &label);
+            let name = self.identifier(ScopeKind::TypeMembers, Role::Function, &label);
             let what = format!("bit {} of type `{}`", field.first, named.name);
             scope.claim(&name, &what, span, diagnostics);
             if let Some(with) = self.language.companion(Companion::With, &name) {
@@ -171,9 +175,10 @@ impl<'a> Plan<'a> {
         diagnostics: &mut Diagnostics,
     ) -> Vec<PlannedValue<'a>> {
         let planned = values.iter().map(|value| {
-            let name = self.identifier(Role::Constant, &format!("{prefix} {}", value.name));
+            let name = format!("{prefix} {}", value.name);
+            let name = self.identifier(ScopeKind::TypeMembers, Role::Constant, &name);
             let what = format!("value {} of type `{}`", value.value, named.name);
-            scope.claim(&name, &what, self.device.span, diagnostics);
+            scope.claim(&name, &what, self.place(value.place.span), diagnostics);
             PlannedValue { name, value }
         });
         planned.collect()

@@ -4,8 +4,8 @@ use crate::plan::{Companion, Language, Role, ScopeKind, Words};
 
 /// Words that Rust keeps for itself, in any edition.
 const KEYWORDS: &[&str] = &[
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
-    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
+    "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do",
+    "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
     "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static",
     "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual",
     "where", "while", "yield",
@@ -14,7 +14,10 @@ const KEYWORDS: &[&str] = &[
 /// Names that generated code uses where groups of accessors are defined.
 const GROUPS: &[&str] = &["Option", "Some", "None", "Result", "Ok", "Err", "Borrow", "BorrowMut", "D"];
 
-/// Those names, and the type that stands beside the dictionary's.
+/// Names that generated code uses where enums and bit fields are defined.
+const TYPES: &[&str] = &["Option", "Some", "None"];
+
+/// Those of groups, and the type that stands beside the dictionary's.
 const DICTIONARY: &[&str] =
     &["Option", "Some", "None", "Result", "Ok", "Err", "Borrow", "BorrowMut", "D", "Entry"];
 
@@ -47,19 +50,14 @@ const METHODS: &[&str] = &[
 pub struct Rust;
 
 impl Language for Rust {
-    fn identifier(&self, role: Role, words: &Words) -> String {
-        match role {
-            Role::Type | Role::Variant => {
-                let name = words.camel();
-                if name == "Self" { "Self_".to_owned() } else { name }
-            }
-            // No keyword is written in capitals.
+    fn identifier(&self, scope: ScopeKind, role: Role, words: &Words) -> String {
+        let name = match role {
+            Role::Type | Role::Variant => words.camel(),
             Role::Constant => words.screaming(),
-            Role::Function | Role::Field => {
-                let name = words.snake();
-                if KEYWORDS.contains(&name.as_str()) { format!("{name}_") } else { name }
-            }
-        }
+            Role::Function | Role::Field => words.snake(),
+        };
+        let is_taken = KEYWORDS.contains(&name.as_str()) || taken(scope).contains(&name.as_str());
+        if is_taken { format!("{name}_") } else { name }
     }
 
     fn companion(&self, companion: Companion, identifier: &str) -> Option<String> {
@@ -74,34 +72,34 @@ impl Language for Rust {
     fn alternatives(&self, variants: &[&str]) -> String {
         variants.join("Or")
     }
+}
 
-    fn reserved(&self, scope: ScopeKind) -> &'static [&'static str] {
-        match scope {
-            ScopeKind::Dictionary => DICTIONARY,
-            ScopeKind::Accessors => METHODS,
-            ScopeKind::Groups => GROUPS,
-            // The module of what units convert into stands beside them.
-            ScopeKind::Units => &["bases"],
-            // Methods that `firmware-glue` gives to every enum and bit field.
-            ScopeKind::TypeMembers => &["known", "bits", "name", "number", "is_known"],
-            ScopeKind::GroupMembers
-            | ScopeKind::Entries
-            | ScopeKind::Fields
-            | ScopeKind::Types
-            | ScopeKind::SpecialValues
-            | ScopeKind::PdoFields
-            | ScopeKind::Machines
-            | ScopeKind::MachineVariants
-            | ScopeKind::Errors
-            | ScopeKind::Constraints => &[],
-        }
+/// Identifiers that generated code needs itself in a scope.
+const fn taken(scope: ScopeKind) -> &'static [&'static str] {
+    match scope {
+        ScopeKind::Dictionary => DICTIONARY,
+        ScopeKind::Accessors => METHODS,
+        ScopeKind::Groups => GROUPS,
+        ScopeKind::Types => TYPES,
+        // Methods that `firmware-glue` gives to every enum and bit field.
+        ScopeKind::TypeMembers => &["known", "bits", "name", "number", "is_known"],
+        ScopeKind::GroupMembers
+        | ScopeKind::Entries
+        | ScopeKind::Fields
+        | ScopeKind::Units
+        | ScopeKind::SpecialValues
+        | ScopeKind::PdoFields
+        | ScopeKind::Machines
+        | ScopeKind::MachineVariants
+        | ScopeKind::Errors
+        | ScopeKind::Constraints => &[],
     }
 }
 
 /// The name of a device's module.
 #[cfg(feature = "format")]
 pub(super) fn module(key: &str) -> String {
-    Rust.identifier(Role::Function, &Words::of(key))
+    Rust.identifier(ScopeKind::Constraints, Role::Function, &Words::of(key))
 }
 
 /// The setter of an accessor: `set_actual_velocity`; of `type_`, `set_type`.
@@ -111,7 +109,8 @@ pub(super) fn setter(accessor: &str) -> String {
 
 /// The accessor of a group that is to be changed: `gear_ratio_mut`.
 pub(super) fn mutable(accessor: &str) -> String {
-    format!("{}_mut", accessor.trim_end_matches('_'))
+    let name = format!("{}_mut", accessor.trim_end_matches('_'));
+    if METHODS.contains(&name.as_str()) { name + "_" } else { name }
 }
 
 /// The accessor of all elements of an array: `cell_voltages_iter`.
@@ -130,10 +129,11 @@ mod tests {
 
     #[test]
     fn keywords_are_no_identifiers() {
-        let function = |name: &str| Rust.identifier(Role::Function, &Words::of(name));
+        let of = |scope, role, name: &str| Rust.identifier(scope, role, &Words::of(name));
+        let function = |name: &str| of(ScopeKind::Accessors, Role::Function, name);
         assert_eq!((function("type").as_str(), function("register").as_str()), ("type_", "register"));
-        assert_eq!(Rust.identifier(Role::Type, &Words::of("self")), "Self_");
-        assert_eq!(Rust.identifier(Role::Constant, &Words::of("self")), "SELF");
+        assert_eq!(of(ScopeKind::Units, Role::Type, "self"), "Self_");
+        assert_eq!(of(ScopeKind::TypeMembers, Role::Constant, "self"), "SELF");
         assert_eq!((setter("type_").as_str(), mutable("type_").as_str()), ("set_type", "type_mut"));
     }
 }

@@ -20,10 +20,10 @@ pub use crate::provenance::Provenance;
 /// reported, and nothing comes out. An EDS cannot say what code needs of it, and its objects often share names: there, what would
 /// clash gets its index behind its name, and a text has room for its default and for 32 bytes.
 pub fn tokens(system: &System, device: &Dictionary, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
-    let (errors, _) = diagnostics.count();
+    let errors = diagnostics.errors_found();
     let device = decided(system, device, &Rust);
     let plan = plan(system, &device, &Rust, diagnostics);
-    (diagnostics.count().0 == errors).then(|| print::tokens(&plan))
+    (diagnostics.errors_found() == errors).then(|| print::tokens(&plan))
 }
 
 /// How code reads each entry of a device: the call of its accessor, `battery_parameter().nominal_capacity()`. Empty where the

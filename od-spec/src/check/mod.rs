@@ -42,6 +42,7 @@ pub mod codes {
     pub use super::drives::drive_modes_have_their_objects::CODE as MODE_WITHOUT_OBJECTS;
     pub use super::names::definitions_are_used::CODE as UNUSED_DEFINITION;
     pub use super::names::names_are_unique::CODE as DUPLICATE_NAME;
+    pub use super::names::names_differ_in_letters::CODE as ALIKE_NAMES;
     pub use super::names::names_fit_eds::CODE as NAME_NOT_FOR_EDS;
     pub(crate) use super::names::names_keep_their_characters::CODE as NAME_WITHOUT_FORM;
     pub use super::names::texts_fit_eds::CODE as NOT_FOR_EDS;

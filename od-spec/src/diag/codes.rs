@@ -287,7 +287,7 @@ codes! {
     NAMED_TWICE Warning "OD0894" "a name that stands twice in a list":
         "A list of devices, features, languages or the like names something twice. Once is enough, so that probably another name was meant, and what it stands for is missing. Remove one of the two, or name what was meant."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
-        "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only, or a name that generated code needs itself, cannot both stand in it. Nothing is renamed silently, as firmware would come to depend on it: write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
+        "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only cannot both stand in it, nor a name and what is made beside another one: `set level` and the setter of `level`. Nothing is renamed silently, as firmware would come to depend on it; only a word that the language or generated code needs itself gets a `_` behind it. Write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":
         "Generated code makes identifiers from the letters and digits of a name, and this one has none. Write `identifier:`."
     NO_CAPACITY Error "OD0903" "a string without a capacity":

@@ -317,6 +317,17 @@ impl Diagnostics {
         self.said.contains(&(code, span))
     }
 
+    /// Makes an error of the warning of a rule that has this place among its own; `false` where there is none. So somebody who
+    /// cannot go on with what the rule warns of need not say it again.
+    pub fn harden(&mut self, code: &'static Code, span: Span) -> bool {
+        let has_place = |said: &&mut Diagnostic| said.labels.iter().any(|label| label.span == span);
+        let said = self.list.iter_mut().filter(|said| said.code == code).find(has_place);
+        let Some(said) = said else { return false };
+        self.errors += 1;
+        said.severity = Severity::Error;
+        true
+    }
+
     /// Sorts by file, place and code, and drops repetitions.
     pub fn sort(&mut self) {
         self.list.sort_by(|a, b| {
@@ -333,7 +344,7 @@ impl Diagnostics {
     }
 
     /// How many errors were found so far, those that were said before among them.
-    pub(crate) const fn errors_found(&self) -> usize {
+    pub const fn errors_found(&self) -> usize {
         self.errors
     }
 

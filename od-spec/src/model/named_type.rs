@@ -91,6 +91,8 @@ pub struct EnumValue {
     pub supported: bool,
     /// Meaning.
     pub about: Text,
+    /// Where its name stands, which is no part of what it is.
+    pub place: Spanned<()>,
 }
 
 /// One bit, or a run of bits that belong together.
@@ -123,6 +125,8 @@ pub struct BitField {
     pub values: Vec<EnumValue>,
     /// Meanings that apply only in one mode of operation.
     pub modes: Vec<ModeMeaning>,
+    /// Where its name stands, which is no part of what it is.
+    pub place: Spanned<()>,
 }
 
 /// What bits mean in one mode of operation.

@@ -378,6 +378,8 @@ pub struct SpecialValue {
     pub name: String,
     /// More about it.
     pub about: Text,
+    /// Where its name stands, which is no part of what it is.
+    pub place: Spanned<()>,
 }
 
 /// A view of another entry in a narrower type or another unit; it has no storage of its own.

@@ -230,7 +230,8 @@ fn special_values(
             diagnostics.push(*diagnostic);
         } else if let Some(name) = &decl.name {
             let about = words(&decl.about);
-            values.push(SpecialValue { value: decl.value.value, name: name.value.clone(), about });
+            let place = Spanned::new((), name.span);
+            values.push(SpecialValue { value: decl.value.value, name: name.value.clone(), about, place });
         }
     }
     values.sort_by_key(|special| special.value);

@@ -106,6 +106,7 @@ fn values(
             name: name.value.clone(),
             supported: decl.supported.is_none_or(|supported| supported.value),
             about: words(&decl.about),
+            place: Spanned::new((), name.span),
         });
     }
     values.sort_by_key(|value| value.value);
@@ -205,6 +206,7 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
                 Some(ModeMeaning { mode: bit.mode.clone(), name, about: words(&bit.about) })
             })
             .collect(),
+        place: Spanned::new((), bit.name.as_ref().map_or(bit.bits.span, |name| name.span)),
     }
 }
 
@@ -254,6 +256,7 @@ fn fill(decl: &TypeDecl, owner: &[Option<Span>], fields: &mut Vec<BitField>, dia
             priority: None,
             values: Vec::new(),
             modes: Vec::new(),
+            place: Spanned::new((), decl.name.span),
         })
     }));
 }

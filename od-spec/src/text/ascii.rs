@@ -48,6 +48,23 @@ pub fn name_in_ascii(name: &str, otherwise: impl FnOnce() -> String) -> Cow<'_, 
     if has_no_form(name) { Cow::Owned(otherwise()) } else { in_ascii(name) }
 }
 
+/// What a name keeps where nothing but letters and digits counts, and no capital: two names that are equal in it are easily
+/// taken for each other, and an identifier cannot tell them apart. Blanks and signs count between two letters and between two
+/// digits: `word 1` is `word1`, and `1 0` is not `10`.
+pub fn letters(name: &str) -> String {
+    let ascii = in_ascii(name);
+    let mut letters = String::with_capacity(ascii.len());
+    for word in ascii.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()) {
+        let ends_with_digit = letters.ends_with(|last: char| last.is_ascii_digit());
+        let begins_with_digit = word.starts_with(|first: char| first.is_ascii_digit());
+        if !letters.is_empty() && (ends_with_digit || !begins_with_digit) {
+            letters.push(' ');
+        }
+        letters.extend(word.chars().map(|c| c.to_ascii_lowercase()));
+    }
+    letters
+}
+
 #[expect(clippy::too_many_lines, reason = "a table with a row for each letter")]
 const fn transcription(c: char) -> &'static str {
     match c {
@@ -186,7 +203,7 @@ const fn transcription(c: char) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::{has_lost, name_in_ascii, transliterate};
+    use super::{has_lost, letters, name_in_ascii, transliterate};
 
     #[test]
     fn what_has_no_form_has_a_name_all_the_same() {
@@ -196,6 +213,18 @@ mod tests {
             ["object 2000h", "speed?", "?", "?? 1", ""]
         );
         assert_eq!(["温度 1", "speed?", "Größe"].map(has_lost), [true, false, false]);
+    }
+
+    #[test]
+    fn letters_and_digits_of_a_name_are_left() {
+        let same = |one: &str, other: &str| letters(one) == letters(other);
+        assert!(
+            same("On!", "ON")
+                && same("word 1", "Word1")
+                && same("Größe (µs)", "groesse us")
+                && same("+", "-")
+        );
+        assert!(!same("on line", "online") && !same("1 0", "10") && !same("phase 1 a", "phase 1a"));
     }
 
     #[test]

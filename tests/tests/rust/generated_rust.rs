@@ -52,17 +52,17 @@ fn all_modules(layout: Layout) -> Vec<(String, String)> {
 }
 
 /// A directory of its own for one test, removed at the end.
-struct Scratch(PathBuf);
+pub(crate) struct Scratch(pub(crate) PathBuf);
 
 impl Scratch {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("od-{name}-{}", std::process::id()));
         fs::create_dir_all(&path).unwrap();
         Self(path)
     }
 
     /// A crate of modules and a text.
-    fn program(&self, modules: &[(String, String)], text: &str) -> PathBuf {
+    pub(crate) fn program(&self, modules: &[(String, String)], text: &str) -> PathBuf {
         let mut program = String::new();
         for (name, module) in modules {
             fs::write(self.0.join(format!("{name}.rs")), module).unwrap();
@@ -74,7 +74,7 @@ impl Scratch {
     }
 
     /// What a compiler says about a crate.
-    fn compile(&self, compiler: &str, path: &Path, arguments: &[&str]) -> (bool, String) {
+    pub(crate) fn compile(&self, compiler: &str, path: &Path, arguments: &[&str]) -> (bool, String) {
         let mut command = Command::new(compiler);
         command.arg(path).args(["--edition", "2024", "--crate-type", "lib", "--emit", "metadata"]);
         command.args(arguments).arg("--out-dir").arg(&self.0);

@@ -8,6 +8,7 @@ mod download;
 mod error_codes;
 mod generated_rust;
 mod mutants;
+mod names;
 mod nasty;
 mod pdos_in_full;
 mod physical;

@@ -2,7 +2,8 @@
 
 use od_gen::facts;
 use od_gen::plan::{
-    Language as _, Members, PlannedBits, PlannedOffset, PlannedType, PlannedUnit, PlannedValue, Role, Words,
+    Language as _, Members, PlannedBits, PlannedOffset, PlannedType, PlannedUnit, PlannedValue, Role,
+    ScopeKind, Words,
 };
 use od_spec::model::SpecialValue;
 
@@ -125,7 +126,7 @@ pub(super) fn specials(page: &mut Page<'_, '_>) {
             heading(page, "Special values of entries: no numbers, but what their names say.");
         }
         for SpecialValue { value, name, about, .. } in &planned.entry.special {
-            let identifier = C.identifier(Role::Variant, &Words::of(name));
+            let identifier = C.identifier(ScopeKind::SpecialValues, Role::Variant, &Words::of(name));
             let text = page.about(&format!("{} {}: {value} {name}", planned.id, planned.entry.name), about);
             let what = format!("special value `{name}` of {}", planned.id);
             page.text.doc(&text);

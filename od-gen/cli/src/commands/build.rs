@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use od_c as c;
 use od_formats::{Selection, artifacts};
 use od_gen::files::{Existing, WriteError, left_over, remove};
-use od_gen::{Artifact, Provenance, rust};
+use od_gen::{Artifact, CHECK, Provenance, rust};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{Devices, Dictionary, Origin, PdoMapping, System};
 use od_spec::rule_codes;
@@ -216,30 +216,30 @@ struct Built {
 /// Compiles everything, so that all messages are shown; `None` if any has errors.
 fn compile_all(specs: &[PathBuf], args: &BuildArgs, report: &Report) -> Option<Vec<Built>> {
     let built = specs.iter().map(|path| {
-        let (used, sources) = report.compile_with_sources(path)?;
-        let code = code(args, &used.system, &sources, report)?;
-        Some(Built { path: path.clone(), used, sources, code })
+        let (used, mut diagnostics, sources) = report.compile_unshown(path);
+        let code = used.as_ref().and_then(|used| code(args, &used.system, &sources, &mut diagnostics));
+        diagnostics.sort();
+        report.show_used(path, CHECK, &diagnostics, &sources);
+        Some(Built { path: path.clone(), used: used?, sources, code: code? })
     });
     built.collect::<Vec<_>>().into_iter().collect()
 }
 
 /// The Rust modules and the C of the wanted devices; `None` if any cannot be made.
-fn code(args: &BuildArgs, system: &System, sources: &SourceMap, report: &Report) -> Option<Vec<Artifact>> {
+fn code(
+    args: &BuildArgs,
+    system: &System,
+    sources: &SourceMap,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<Artifact>> {
     let devices = || system.devices.iter().filter(|device| wanted(args, device));
     let provenance = Provenance::of(sources);
-    let mut set = Vec::new();
-    let mut is_whole = true;
-    let mut make = |of: &dyn Fn(&mut Diagnostics) -> Vec<Artifact>| {
-        let mut diagnostics = Diagnostics::new();
-        set.extend(of(&mut diagnostics));
-        report.show(&diagnostics, sources);
-        is_whole &= !diagnostics.has_errors();
-    };
+    let (mut set, errors) = (Vec::new(), diagnostics.errors_found());
     if args.rust {
-        make(&|diagnostics| rust::artifacts(system, devices(), &provenance, diagnostics));
+        set.extend(rust::artifacts(system, devices(), &provenance, diagnostics));
     }
-    make(&|diagnostics| c::artifacts(system, devices(), &provenance, &kinds(args), diagnostics));
-    is_whole.then_some(set)
+    set.extend(c::artifacts(system, devices(), &provenance, &kinds(args), diagnostics));
+    (diagnostics.errors_found() == errors).then_some(set)
 }
 
 /// The kinds of C that are wanted, each once.

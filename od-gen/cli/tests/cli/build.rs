@@ -161,6 +161,28 @@ fn what_would_not_compile_is_refused_by_check_as_by_build() {
 }
 
 #[test]
+fn names_that_code_cannot_tell_apart_are_told_once_and_where_they_stand() {
+    let scratch = Scratch::new("alike");
+    let errors = "errors:\n  0xFF01..0xFF08: {name: lamp broken}\n";
+    scratch.file("lamp.od.yaml", format!("{LAMP}{errors}"));
+    for (arguments, ends, severity) in [
+        (&["check"][..], 0, "warning"),
+        (&["check", "--rust"], 1, "error"),
+        (&["build", "--rust"], 1, "error"),
+    ] {
+        let output = odgen(&scratch.0, &[arguments, &["lamp.od.yaml"]].concat());
+        let said = stdout(&output) + &stderr(&output);
+        assert_eq!(code(&output), ends, "{said}");
+        assert_eq!(said.matches(&format!("{severity}[OD")).count(), 1, "{said}");
+        assert!(
+            said.contains(&format!("{severity}[OD0898]: 8 error codes are named `lamp broken`")),
+            "{said}"
+        );
+        assert!(said.contains("lamp.od.yaml:14:3"), "{said}");
+    }
+}
+
+#[test]
 fn what_is_no_longer_made_is_named_and_removed_when_that_is_wanted() {
     let scratch = Scratch::new("prune");
     let second = LAMP

@@ -29,10 +29,6 @@ type ScopeOf = (ScopeKind, Option<Index>);
 
 /// Gives an identifier to every object and entry that would share one. Which of them gets which depends on no order.
 pub(super) fn tell_apart(device: &mut Dictionary, language: &dyn Language) {
-    let key = language.identifier(Role::Type, &Words::of(&device.key));
-    if language.reserved(ScopeKind::Dictionary).contains(&key.as_str()) {
-        device.key.push_str(" device");
-    }
     let mut steps = BTreeMap::new();
     // Each round takes at least one step, and nothing can take more than two.
     loop {
@@ -95,30 +91,32 @@ fn rename(device: &mut Dictionary, named: Named, step: Step) {
 }
 
 /// Who asks for which identifier.
-struct Claims<'l> {
-    language: &'l dyn Language,
+#[derive(Default)]
+struct Claims {
     taken: BTreeMap<(ScopeOf, String), Named>,
     clashing: BTreeSet<Named>,
 }
 
-impl<'l> Claims<'l> {
-    fn new(language: &'l dyn Language) -> Self {
-        Self { language, taken: BTreeMap::new(), clashing: BTreeSet::new() }
-    }
-
+impl Claims {
     /// What the accessors of objects and the types of groups are called, with everything that may be printed beside them.
-    fn of_objects(device: &Dictionary, language: &'l dyn Language) -> Self {
-        let mut claims = Self::new(language);
+    fn of_objects(device: &Dictionary, language: &dyn Language) -> Self {
+        let mut claims = Self::default();
         for object in device.objects.values() {
             let words = Words::of(object.label());
             let named = Named::Object(object.index);
             let accessors = (ScopeKind::Accessors, None);
-            let mut functions = vec![(named, language.identifier(Role::Function, &words))];
+            let mut functions =
+                vec![(named, language.identifier(ScopeKind::Accessors, Role::Function, &words))];
             if object.is_structured() {
-                claims.claim((ScopeKind::Groups, None), language.identifier(Role::Type, &words), named);
+                claims.claim(
+                    (ScopeKind::Groups, None),
+                    language.identifier(ScopeKind::Groups, Role::Type, &words),
+                    named,
+                );
                 functions.extend(object.entries.first().map(|sub0| {
                     let id = EntryId { index: object.index, sub: sub0.sub };
-                    (Named::Entry(id), language.identifier(Role::Function, &words.and(sub0.label())))
+                    let words = words.and(sub0.label());
+                    (Named::Entry(id), language.identifier(ScopeKind::Accessors, Role::Function, &words))
                 }));
             }
             for (named, function) in functions {
@@ -134,8 +132,8 @@ impl<'l> Claims<'l> {
     }
 
     /// What entries are called in their group and beside all others.
-    fn of_entries(device: &Dictionary, language: &'l dyn Language) -> Self {
-        let mut claims = Self::new(language);
+    fn of_entries(device: &Dictionary, language: &dyn Language) -> Self {
+        let mut claims = Self::default();
         for object in device.objects.values() {
             let of_object = Words::of(object.label());
             let members = (ScopeKind::GroupMembers, Some(object.index));
@@ -147,20 +145,21 @@ impl<'l> Claims<'l> {
                 } else {
                     (Named::Object(object.index), of_object.clone())
                 };
-                let member = language.identifier(Role::Function, &Words::of(label));
+                let member = language.identifier(ScopeKind::GroupMembers, Role::Function, &Words::of(label));
                 if let Some(setter) = language.companion(Companion::Setter, &member) {
                     claims.claim(members, setter, named);
                 }
                 claims.claim(members, member, named);
-                claims.claim((ScopeKind::Entries, None), language.identifier(Role::Variant, &words), named);
-                claims.claim((ScopeKind::Fields, None), language.identifier(Role::Field, &words), named);
+                for (scope, role) in [(ScopeKind::Entries, Role::Variant), (ScopeKind::Fields, Role::Field)] {
+                    claims.claim((scope, None), language.identifier(scope, role, &words), named);
+                }
             }
         }
         claims
     }
 
     fn claim(&mut self, scope: ScopeOf, identifier: String, named: Named) {
-        if identifier.is_empty() || self.language.reserved(scope.0).contains(&identifier.as_str()) {
+        if identifier.is_empty() {
             self.clashing.insert(named);
             return;
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use od_spec::model::Dictionary;
 
-use crate::plan::language::{Language, Role};
+use crate::plan::language::{Language, Role, ScopeKind};
 use crate::plan::names::Words;
 
 /// Gives each unit of the entries a name whose identifier no other one has.
@@ -14,8 +14,9 @@ pub(super) fn tell_apart(device: &mut Dictionary, language: &dyn Language) {
     for unit in
         device.objects.values().flat_map(|object| &object.entries).filter_map(|entry| entry.unit.as_ref())
     {
-        let of_name =
-            by_identifier.entry(language.identifier(Role::Type, &Words::of(&spelt(&unit.name)))).or_default();
+        let of_name = by_identifier
+            .entry(language.identifier(ScopeKind::Units, Role::Type, &Words::of(&spelt(&unit.name))))
+            .or_default();
         if !of_name.contains(&unit.name) {
             of_name.push(unit.name.clone());
         }
