@@ -1,6 +1,7 @@
 //! The files of a plant: for each machine the DCF and the concise DCF of its nodes and the list of them, and for all machines
 //! what differs where.
 
+mod cell;
 mod messages;
 mod nodelist;
 mod overview;

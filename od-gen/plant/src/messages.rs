@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use od_spec::plant::{Bus, MachineType, Message, Plant, Settled, Traffic};
 
-use super::overview::plain;
+use super::cell::plain;
 
 /// The flag of an identifier of 29 bits, and the identifier without it.
 const WIDE: u32 = 1 << 29;

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use od_spec::eds::GENERATED;
-use od_spec::markdown::{escape, paragraph};
+use od_spec::markdown::paragraph;
 use od_spec::model::EntryId;
 use od_spec::plant::{Level, Plant, Settled};
 
+use super::cell::plain;
 use super::messages::pdos;
 use super::values::{PlantValue, values};
 
@@ -191,9 +192,4 @@ fn remarks(text: &mut String, plant: &Plant) {
 /// `1 site`, `2 sites`.
 fn counted(number: usize, what: &str) -> String {
     format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-}
-
-/// A text on one line, as a cell of a table can hold it.
-pub(super) fn plain(text: &str) -> String {
-    escape(text).trim().to_owned()
 }
