@@ -292,7 +292,8 @@ fn build(
     Some(Built { described: described(&spec, &system), system, untranslated: spec.untranslated })
 }
 
-/// Reads a file and its parts. The tree, which is several times as large as the text, is gone afterwards.
+/// Reads a file and its parts. The tree, which is several times as large as the text, is gone afterwards unless the loader
+/// keeps it.
 fn file(
     sources: &mut SourceMap,
     file: FileId,
@@ -300,7 +301,7 @@ fn file(
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
 ) -> Option<Spec> {
-    let mut tree = yaml::parse(file, sources.file(file), diagnostics)?;
+    let mut tree = loader.tree(file, sources.file(file), diagnostics)?;
     parts::refuse_alone(&tree, diagnostics)?;
     gaps::check(file, sources.file(file).text(), diagnostics);
     decode::check(&tree, &keys::SPEC, diagnostics);

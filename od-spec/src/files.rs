@@ -1,13 +1,15 @@
 //! Texts from files: who gives them, how large they may be and how they are written; and the files that a specification names.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::check::codes as rule_codes;
-use crate::diag::{Diagnostic, Label, codes, shorten};
+use crate::diag::{Diagnostic, Diagnostics, Label, codes, shorten};
 use crate::encoding::Encoding;
 use crate::keys::{PART_OF, SPEC_VERSION};
-use crate::source::{FileId, SourceMap, Span, Spanned};
+use crate::source::{FileId, SourceFile, SourceMap, Span, Spanned};
 use crate::xdd::Disabled;
+use crate::yaml::{self, Node};
 use crate::{eds, encoding, other_bus, xdd};
 
 /// Largest file that is read, in bytes.
@@ -20,6 +22,17 @@ pub trait Loader {
     /// # Errors
     /// Why there are none, in a few words such as "no such file".
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String>;
+
+    /// The syntax tree of a specification, a part of one or a library; `None` with a message of what is no YAML. Whoever
+    /// compiles a text again, or wants its tree, keeps what was read.
+    fn tree(
+        &mut self,
+        file: FileId,
+        source: &SourceFile,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Arc<Node>> {
+        yaml::parse(file, source, diagnostics).map(Arc::new)
+    }
 
     /// What becomes of objects of an XDD that are switched off.
     fn disabled(&self) -> Disabled {

@@ -4,6 +4,7 @@
 //! from them: a section reads the same whichever file it stands in, and every value keeps its place.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::decode;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
@@ -13,10 +14,10 @@ use crate::source::{FileId, SourceMap, Span, Spanned};
 use crate::yaml::{self, Node, NodeKind};
 
 /// Joins the parts of a specification to it. `None` when one is missing or the tree is that of a part: without the whole,
-/// everything that stands elsewhere would be reported as missing.
+/// everything that stands elsewhere would be reported as missing. A tree that somebody keeps is copied first.
 pub(crate) fn join(
     sources: &mut SourceMap,
-    root: &mut Node,
+    root: &mut Arc<Node>,
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
 ) -> Option<()> {
@@ -32,7 +33,7 @@ pub(crate) fn join(
             continue;
         }
         match part(sources, name, (whole, &from), loader, diagnostics) {
-            Some(part) => take(root, part, diagnostics),
+            Some(part) => take(Arc::make_mut(root), Arc::unwrap_or_clone(part), diagnostics),
             None => complete = false,
         }
     }
@@ -68,7 +69,7 @@ fn part(
     (whole, from): (FileId, &str),
     loader: &mut dyn Loader,
     diagnostics: &mut Diagnostics,
-) -> Option<Node> {
+) -> Option<Arc<Node>> {
     let text = match files::read(name, from, loader, missing, |name| no_part(name, from)) {
         Ok(text) => text,
         Err(diagnostic) => {
@@ -77,7 +78,7 @@ fn part(
         }
     };
     let file = sources.add_part(files::beside(from, &name.value), text, whole);
-    let part = yaml::parse(file, sources.file(file), diagnostics)?;
+    let part = loader.tree(file, sources.file(file), diagnostics)?;
     let Some(stated) = part.get(PART_OF) else {
         diagnostics.push(no_part(name, from));
         return None;

@@ -1,8 +1,9 @@
 //! What an editor shows of a specification: a session with the language server, in this process.
 
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 
-use lsp_server::{Connection, Message, Notification, Request, RequestId};
+use lsp_server::{Message, Notification, Request, RequestId};
 use od_lsp::serve;
 use serde_json::{Value, json};
 
@@ -12,37 +13,42 @@ const URI: &str = "file:///valve.od.yaml";
 
 /// The other end of the line.
 struct Editor {
-    line: Connection,
+    messages: Sender<Message>,
+    answers: Receiver<String>,
     asked: i32,
 }
 
 impl Editor {
     fn notify(&self, method: &str, params: Value) -> Result<(), Failure> {
-        Ok(self.line.sender.send(Notification::new(method.to_owned(), params).into())?)
+        Ok(self.messages.send(Notification::new(method.to_owned(), params).into())?)
     }
 
     /// The result of a request.
     fn ask(&mut self, method: &str, params: Value) -> Result<Value, Failure> {
         self.asked += 1;
-        let id = RequestId::from(self.asked);
-        self.line.sender.send(Request::new(id.clone(), method.to_owned(), params).into())?;
+        self.messages.send(Request::new(RequestId::from(self.asked), method.to_owned(), params).into())?;
         loop {
-            match self.line.receiver.recv()? {
-                Message::Response(answer) if answer.id == id => {
-                    return answer.response_result.map_err(|error| error.message.into());
-                }
-                Message::Response(_) | Message::Request(_) | Message::Notification(_) => {}
+            let mut answer = self.next()?;
+            if answer["id"] == self.asked {
+                return match answer["error"]["message"].as_str() {
+                    Some(error) => Err(error.into()),
+                    None => Ok(answer["result"].take()),
+                };
             }
         }
+    }
+
+    /// The next message of the server.
+    fn next(&self) -> Result<Value, Failure> {
+        Ok(serde_json::from_str(&self.answers.recv()?)?)
     }
 
     /// What is said about the document next.
     fn said(&self) -> Result<Value, Failure> {
         loop {
-            if let Message::Notification(mut said) = self.line.receiver.recv()?
-                && said.method == "textDocument/publishDiagnostics"
-            {
-                return Ok(said.params["diagnostics"].take());
+            let mut said = self.next()?;
+            if said["method"] == "textDocument/publishDiagnostics" {
+                return Ok(said["params"]["diagnostics"].take());
             }
         }
     }
@@ -88,9 +94,9 @@ pub fn hover(text: &str, word: &str) -> Result<String, Failure> {
 
 /// A session about a text.
 fn session(text: &str, act: impl FnOnce(&mut Editor) -> Result<String, Failure>) -> Result<String, Failure> {
-    let (server, line) = Connection::memory();
-    let server = thread::spawn(move || serve(&server));
-    let mut editor = Editor { line, asked: 0 };
+    let ((messages, received), (sender, answers)) = (channel(), channel());
+    let server = thread::spawn(move || serve(&received, sender));
+    let mut editor = Editor { messages, answers, asked: 0 };
     editor.ask("initialize", json!({"capabilities": {}}))?;
     let document = json!({"uri": URI, "languageId": "yaml", "version": 1, "text": text});
     editor.notify("textDocument/didOpen", json!({"textDocument": document}))?;

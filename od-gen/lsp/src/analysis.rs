@@ -18,7 +18,7 @@ use od_spec::{Compiled, add_source, compile, is_parameter_file, is_specification
 use super::overlay::{Buffers, Overlay, bytes_of};
 use super::place::Place;
 use super::position::{Encoding, Lines};
-use super::trees;
+use super::trees::Trees;
 use super::unread;
 
 /// What a document is.
@@ -73,6 +73,7 @@ pub(super) struct Analysis {
     /// The places that were asked for, whether there is something or not.
     pub asked: BTreeSet<Place>,
     files: BTreeMap<FileId, FileFacts>,
+    trees: Arc<Trees>,
     names: OnceLock<Names>,
 }
 
@@ -90,12 +91,13 @@ struct FileFacts {
 }
 
 impl Analysis {
-    /// Compiles the document at a place. `members` are open documents that say they are parts of it, and `uri` tells how the
-    /// client calls a place.
+    /// Compiles the document at a place. `members` are open documents that say they are parts of it, `trees` what was read of its
+    /// files before, and `uri` tells how the client calls a place.
     pub(super) fn of<'a>(
         place: &Place,
         members: impl Iterator<Item = &'a Place>,
         buffers: &Buffers,
+        trees: &Arc<Trees>,
         uri: impl Fn(&Place) -> Option<Uri>,
     ) -> Self {
         let mut analysis = Self {
@@ -106,9 +108,10 @@ impl Analysis {
             diagnostics: Diagnostics::new(),
             asked: BTreeSet::from([place.clone()]),
             files: BTreeMap::new(),
+            trees: Arc::clone(trees),
             names: OnceLock::new(),
         };
-        let mut loader = Overlay::new(buffers);
+        let mut loader = Overlay::new(buffers, trees);
         analysis.read(place, &mut loader, buffers);
         analysis.asked.append(&mut loader.asked);
         analysis.note_files(&uri);
@@ -200,11 +203,11 @@ impl Analysis {
         self.files.get(&file).map_or(&NO_LINES, |facts| facts.lines.get_or_init(lines))
     }
 
-    /// The syntax tree of a file, read when it is first asked for; `None` where the text is no YAML, or an EDS.
+    /// The syntax tree of a file; `None` where the text is no YAML, or an EDS.
     pub(super) fn tree(&self, file: FileId) -> Option<&Node> {
         let read = || match self.kind {
             Kind::Specification | Kind::Plant | Kind::Parameters => {
-                trees::tree(file, self.sources.file(file))
+                self.trees.tree(file, self.sources.file(file), &mut Diagnostics::new())
             }
             Kind::Eds | Kind::Xdd | Kind::Foreign => None,
         };

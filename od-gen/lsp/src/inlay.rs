@@ -1,6 +1,6 @@
 //! What an editor shows between the letters: the raw value behind a physical one, where an entry lies in a PDO, the identifier of a PDO.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use lsp_types::{InlayHint, InlayHintLabel, InlayHintTooltip, Position, Range};
@@ -78,7 +78,8 @@ fn hint(position: Position, label: String, about: &str) -> InlayHint {
 
 /// The raw values behind values that are written with a unit.
 fn raw_values(snapshot: &Snapshot, good: &Arc<Analysis>, system: &System) -> Vec<InlayHint> {
-    let mut seen: BTreeSet<(Span, String)> = BTreeSet::new();
+    // Where one text stands for several raw values, none is the right one.
+    let mut seen: BTreeMap<Span, Option<i128>> = BTreeMap::new();
     let file = snapshot.now.place(snapshot.file);
     for device in &system.devices {
         for (_, _, entry) in device.entries().filter(|(_, _, entry)| entry.unit.is_some()) {
@@ -92,18 +93,17 @@ fn raw_values(snapshot: &Snapshot, good: &Arc<Analysis>, system: &System) -> Vec
                 // What is a number as it stands is the raw value itself, and lists have several.
                 let is_one = !written.starts_with(['[', '{', '*']) && !written.contains('\n');
                 if is_one && written.contains(' ') && scalar::integer(written).is_err() {
-                    seen.insert((stated.span, raw.to_string()));
+                    let raw = Some(raw);
+                    let known = seen.entry(stated.span).or_insert(raw);
+                    *known = raw.filter(|_| *known == raw);
                 }
             }
         }
     }
-    // Where one text stands for several raw values, none is the right one.
-    let several = |span: Span| seen.iter().filter(|(other, _)| *other == span).take(2).count() > 1;
-    let single = seen.iter().filter(|(span, _)| !several(*span));
-    single
+    seen.into_iter()
         .filter_map(|(span, raw)| {
-            let location = snapshot.location(good, *span)?;
-            Some(hint(location.range.end, raw.clone(), "raw value"))
+            let location = snapshot.location(good, span)?;
+            Some(hint(location.range.end, raw?.to_string(), "raw value"))
         })
         .collect()
 }

@@ -27,6 +27,7 @@ mod hover;
 mod inlay;
 mod library;
 pub mod line_diff;
+mod outgoing;
 mod overlay;
 mod place;
 mod position;
@@ -46,6 +47,7 @@ mod workspace_symbols;
 use std::io;
 
 pub use server::{Exit, serve};
+use transport::Stdio;
 
 /// Serves a client on standard input and output until it says goodbye or its end of the line is closed.
 ///
@@ -53,9 +55,8 @@ pub use server::{Exit, serve};
 /// The input is not the Language Server Protocol, or the output cannot be written.
 pub fn serve_stdio() -> io::Result<Exit> {
     copies::make_them();
-    let (connection, broken, writer) = transport::stdio();
-    let exit = serve(&connection);
-    drop(connection);
+    let Stdio { messages, answers, broken, writer } = transport::stdio();
+    let exit = serve(&messages, answers);
     transport::finished(writer)?;
     broken.take().map_or(Ok(exit), Err)
 }

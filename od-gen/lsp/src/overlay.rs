@@ -2,12 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::Arc;
 
 use od_gen::source::{plain, read_file};
+use od_spec::diag::Diagnostics;
+use od_spec::source::{FileId, SourceFile};
+use od_spec::yaml::Node;
 use od_spec::{Loader, may_be_specification, part_of};
 
 use super::buffer::Buffer;
 use super::place::Place;
+use super::trees::Trees;
 
 /// Open buffers by their places.
 pub(super) type Buffers = BTreeMap<Place, Buffer>;
@@ -23,16 +28,17 @@ pub(super) fn bytes_of(place: &Place, buffers: &Buffers) -> Result<Vec<u8>, Stri
     }
 }
 
-/// Reads buffers before files, and remembers which places were asked for, whether there is something or not.
+/// Reads buffers before files and no text twice, and remembers which places were asked for, whether there is something or not.
 pub(super) struct Overlay<'a> {
     buffers: &'a Buffers,
+    trees: &'a Trees,
     /// What the answer depends on.
     pub asked: BTreeSet<Place>,
 }
 
 impl<'a> Overlay<'a> {
-    pub(super) const fn new(buffers: &'a Buffers) -> Self {
-        Self { buffers, asked: BTreeSet::new() }
+    pub(super) const fn new(buffers: &'a Buffers, trees: &'a Trees) -> Self {
+        Self { buffers, trees, asked: BTreeSet::new() }
     }
 }
 
@@ -46,6 +52,15 @@ impl Loader for Overlay<'_> {
         let bytes = bytes_of(&place, self.buffers);
         self.asked.insert(place);
         bytes
+    }
+
+    fn tree(
+        &mut self,
+        file: FileId,
+        source: &SourceFile,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Arc<Node>> {
+        self.trees.tree(file, source, diagnostics)
     }
 }
 

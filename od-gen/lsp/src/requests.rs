@@ -12,10 +12,10 @@ use lsp_types::{
     CompletionList, CompletionResponse, DocumentSymbolResponse, GotoDefinitionResponse, Position,
     TextDocumentPositionParams, Uri, WorkspaceSymbolResponse,
 };
-use serde_json::Value;
 
 use super::completion::{self, Insertion};
 use super::inlay::Hint;
+use super::outgoing::{answer, refusal};
 use super::position::Encoding;
 use super::snapshot::Snapshot;
 use super::symbols;
@@ -48,90 +48,86 @@ impl Context<'_> {
     }
 }
 
-/// An error as an answer.
-pub(super) fn refusal(code: ErrorCode, message: String) -> ResponseError {
-    ResponseError { code: code as i32, message, data: None }
-}
-
 /// What was asked for cannot be done.
 fn failed(reason: String) -> ResponseError {
     refusal(ErrorCode::RequestFailed, reason)
 }
 
-/// The result of a request, or why there is none.
-pub(super) fn answer(request: Request, context: &mut Context<'_>) -> Result<Value, ResponseError> {
-    let Request { method, params, .. } = request;
-    match method.as_str() {
-        CodeActionRequest::METHOD => on::<CodeActionRequest>(params, |params| {
+/// The answer to a request.
+pub(super) fn answered(request: Request, context: &mut Context<'_>) -> String {
+    match request.method.as_str() {
+        CodeActionRequest::METHOD => on::<CodeActionRequest>(request, |params| {
             let snapshot = context.snapshot(&params.text_document.uri)?;
             Ok(Some(code_actions::actions(&snapshot, params.range, &params.context)))
         }),
-        DocumentSymbolRequest::METHOD => on::<DocumentSymbolRequest>(params, |params| {
+        DocumentSymbolRequest::METHOD => on::<DocumentSymbolRequest>(request, |params| {
             let snapshot = context.snapshot(&params.text_document.uri)?;
             Ok(Some(DocumentSymbolResponse::Nested(symbols::symbols(&snapshot))))
         }),
-        Completion::METHOD => on::<Completion>(params, |params| {
+        Completion::METHOD => on::<Completion>(request, |params| {
             let (snapshot, position) = context.at(&params.text_document_position)?;
             let items = completion::completion(&snapshot, position, context.insertion);
             // What is offered hangs on what has been written: an index or a name.
             Ok(Some(CompletionResponse::List(CompletionList { is_incomplete: true, items })))
         }),
-        GotoDefinition::METHOD => on::<GotoDefinition>(params, |params| {
+        GotoDefinition::METHOD => on::<GotoDefinition>(request, |params| {
             let (snapshot, position) = context.at(&params.text_document_position_params)?;
             Ok(Some(GotoDefinitionResponse::Array(definition::definition(&snapshot, position))))
         }),
-        PrepareRenameRequest::METHOD => on::<PrepareRenameRequest>(params, |params| {
+        PrepareRenameRequest::METHOD => on::<PrepareRenameRequest>(request, |params| {
             let (snapshot, position) = context.at(&params)?;
             rename::prepare(&snapshot, position).map(Some).map_err(failed)
         }),
-        Rename::METHOD => on::<Rename>(params, |params| {
+        Rename::METHOD => on::<Rename>(request, |params| {
             let (snapshot, position) = context.at(&params.text_document_position)?;
             rename::rename(&snapshot, position, &params.new_name).map(Some).map_err(failed)
         }),
-        InlayHintRequest::METHOD => on::<InlayHintRequest>(params, |params| {
+        InlayHintRequest::METHOD => on::<InlayHintRequest>(request, |params| {
             let snapshot = context.snapshot(&params.text_document.uri)?;
             Ok(Some(inlay::hints(&snapshot, params.range, context.hints)))
         }),
-        HoverRequest::METHOD => on::<HoverRequest>(params, |params| {
+        HoverRequest::METHOD => on::<HoverRequest>(request, |params| {
             let (snapshot, position) = context.at(&params.text_document_position_params)?;
             Ok(hover::hover(&snapshot, position))
         }),
-        References::METHOD => on::<References>(params, |params| {
+        References::METHOD => on::<References>(request, |params| {
             let (snapshot, position) = context.at(&params.text_document_position)?;
             let with_definition = params.context.include_declaration;
             Ok(Some(definition::references(&snapshot, position, with_definition)))
         }),
-        DocumentHighlightRequest::METHOD => on::<DocumentHighlightRequest>(params, |params| {
+        DocumentHighlightRequest::METHOD => on::<DocumentHighlightRequest>(request, |params| {
             let (snapshot, position) = context.at(&params.text_document_position_params)?;
             Ok(Some(definition::highlights(&snapshot, position)))
         }),
-        FoldingRangeRequest::METHOD => on::<FoldingRangeRequest>(params, |params| {
+        FoldingRangeRequest::METHOD => on::<FoldingRangeRequest>(request, |params| {
             Ok(Some(folding::ranges(&context.snapshot(&params.text_document.uri)?)))
         }),
-        Formatting::METHOD => on::<Formatting>(params, |params| {
+        Formatting::METHOD => on::<Formatting>(request, |params| {
             Ok(Some(formatting::document(&context.snapshot(&params.text_document.uri)?)))
         }),
-        RangeFormatting::METHOD => on::<RangeFormatting>(params, |params| {
+        RangeFormatting::METHOD => on::<RangeFormatting>(request, |params| {
             let snapshot = context.snapshot(&params.text_document.uri)?;
             Ok(Some(formatting::range(&snapshot, params.range)))
         }),
-        WorkspaceSymbolRequest::METHOD => on::<WorkspaceSymbolRequest>(params, |params| {
+        WorkspaceSymbolRequest::METHOD => on::<WorkspaceSymbolRequest>(request, |params| {
             let found =
                 workspace_symbols::find(&params.query, &context.workspace.snapshots(context.encoding));
             Ok(Some(WorkspaceSymbolResponse::Nested(found)))
         }),
-        _ => Err(refusal(ErrorCode::MethodNotFound, format!("there is no method `{method}`"))),
+        method => {
+            let message = format!("there is no method `{method}`");
+            answer::<()>(&request.id, Err(refusal(ErrorCode::MethodNotFound, message)))
+        }
     }
 }
 
 /// Reads the parameters of a request, and writes down its answer.
 fn on<M: Method>(
-    params: Value,
-    answer: impl FnOnce(M::Params) -> Result<M::Result, ResponseError>,
-) -> Result<Value, ResponseError> {
+    Request { id, params, .. }: Request,
+    result: impl FnOnce(M::Params) -> Result<M::Result, ResponseError>,
+) -> String {
     let params = serde_json::from_value(params).map_err(|error| {
         refusal(ErrorCode::InvalidParams, format!("cannot read the parameters of `{}`: {error}", M::METHOD))
-    })?;
-    serde_json::to_value(answer(params)?)
-        .map_err(|error| refusal(ErrorCode::InternalError, format!("cannot write the answer: {error}")))
+    });
+    answer(&id, params.and_then(result))
 }

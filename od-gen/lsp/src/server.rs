@@ -1,8 +1,9 @@
 //! The loop: one message after the other.
 
 use std::collections::{BTreeSet, VecDeque};
+use std::sync::mpsc::{Receiver, Sender};
 
-use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
+use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, ResponseError};
 use lsp_types::notification::{
     DidChangeTextDocument, DidChangeWatchedFiles, DidCloseTextDocument, DidOpenTextDocument,
     DidSaveTextDocument, Exit as ExitNotification, Initialized, LogMessage, Notification as Method,
@@ -11,7 +12,7 @@ use lsp_types::notification::{
 use lsp_types::request::{Initialize, RegisterCapability, Request as _, Shutdown};
 use lsp_types::{
     DidChangeTextDocumentParams, DidChangeWatchedFilesRegistrationOptions, FileSystemWatcher, GlobPattern,
-    InitializeParams, LogMessageParams, MessageType, Registration, RegistrationParams,
+    InitializeParams, InitializeResult, LogMessageParams, MessageType, Registration, RegistrationParams,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -20,9 +21,10 @@ use super::capabilities;
 use super::completion::Insertion;
 use super::diagnostics::Published;
 use super::inlay::Hint;
+use super::outgoing::{self, answer, refusal};
 use super::place::Place;
 use super::position::Encoding;
-use super::requests::{self, Context, refusal};
+use super::requests::{self, Context};
 use super::workspace::Workspace;
 
 /// How the work ended.
@@ -45,10 +47,11 @@ enum Phase {
     Leaving,
 }
 
-/// Serves a client until it leaves. No file of a user is written; copies of libraries and explanations go to the cache.
-pub fn serve(connection: &Connection) -> Exit {
+/// Serves a client until it leaves; `answers` takes the texts of messages. No file of a user is written; copies of libraries and
+/// explanations go to the cache.
+pub fn serve(messages: &Receiver<Message>, answers: Sender<String>) -> Exit {
     let mut server = Server {
-        connection,
+        answers,
         phase: Phase::Strange,
         encoding: Encoding::default(),
         insertion: Insertion::default(),
@@ -61,11 +64,11 @@ pub fn serve(connection: &Connection) -> Exit {
     let mut waiting = VecDeque::new();
     loop {
         // Everything that came: what is behind may cancel what is before, or change what it is about.
-        waiting.extend(connection.receiver.try_iter());
+        waiting.extend(messages.try_iter());
         let message = match waiting.pop_front() {
             Some(message) => message,
             None if server.look_at_one() => continue,
-            None => match connection.receiver.recv() {
+            None => match messages.recv() {
                 Ok(message) => message,
                 Err(_) => return server.exit(),
             },
@@ -73,7 +76,7 @@ pub fn serve(connection: &Connection) -> Exit {
         match message {
             Message::Request(request) if is_cancelled(&request.id, &waiting) => {
                 let message = "cancelled by the client".to_owned();
-                server.respond(request.id, Err(refusal(ErrorCode::RequestCanceled, message)));
+                server.send(answer::<()>(&request.id, Err(refusal(ErrorCode::RequestCanceled, message))));
             }
             Message::Request(request) => server.request(request),
             Message::Notification(notification) if notification.method == ExitNotification::METHOD => {
@@ -97,8 +100,8 @@ fn is_cancelled(id: &RequestId, behind: &VecDeque<Message>) -> bool {
     })
 }
 
-struct Server<'c> {
-    connection: &'c Connection,
+struct Server {
+    answers: Sender<String>,
     phase: Phase,
     encoding: Encoding,
     insertion: Insertion,
@@ -111,7 +114,7 @@ struct Server<'c> {
     client_watches: bool,
 }
 
-impl Server<'_> {
+impl Server {
     const fn exit(&self) -> Exit {
         match self.phase {
             Phase::Leaving => Exit::Agreed,
@@ -119,33 +122,33 @@ impl Server<'_> {
         }
     }
 
-    fn send(&self, message: impl Into<Message>) {
+    fn send(&self, message: String) {
         // A client that has gone will be noticed where the next message is read.
-        let _ = self.connection.sender.send(message.into());
-    }
-
-    fn respond(&self, id: RequestId, response_result: Result<Value, ResponseError>) {
-        self.send(Response { id, response_result });
+        let _ = self.answers.send(message);
     }
 
     fn notify<M: Method>(&self, params: M::Params) {
-        self.send(Notification::new(M::METHOD.to_owned(), params));
+        if let Ok(message) = outgoing::notification::<M>(params) {
+            self.send(message);
+        }
     }
 
     fn request(&mut self, request: Request) {
         let id = request.id.clone();
-        let result = match self.phase {
-            Phase::Strange if request.method == Initialize::METHOD => self.initialize(request.params),
-            Phase::Strange => Err(refusal(
-                ErrorCode::ServerNotInitialized,
-                "expected `initialize` before any other request".to_owned(),
-            )),
+        let refused = |code, message: &str| answer::<()>(&id, Err(refusal(code, message.to_owned())));
+        let answer = match self.phase {
+            Phase::Strange if request.method == Initialize::METHOD => {
+                answer(&id, self.initialize(request.params))
+            }
+            Phase::Strange => {
+                refused(ErrorCode::ServerNotInitialized, "expected `initialize` before any other request")
+            }
             Phase::Working if request.method == Initialize::METHOD => {
-                Err(refusal(ErrorCode::InvalidRequest, "`initialize` came a second time".to_owned()))
+                refused(ErrorCode::InvalidRequest, "`initialize` came a second time")
             }
             Phase::Working if request.method == Shutdown::METHOD => {
                 self.phase = Phase::Leaving;
-                Ok(Value::Null)
+                answer(&id, Ok(()))
             }
             Phase::Working => {
                 let mut context = Context {
@@ -154,16 +157,14 @@ impl Server<'_> {
                     insertion: self.insertion,
                     hints: &self.hints,
                 };
-                requests::answer(request, &mut context)
+                requests::answered(request, &mut context)
             }
-            Phase::Leaving => {
-                Err(refusal(ErrorCode::InvalidRequest, "expected `exit` behind `shutdown`".to_owned()))
-            }
+            Phase::Leaving => refused(ErrorCode::InvalidRequest, "expected `exit` behind `shutdown`"),
         };
-        self.respond(id, result);
+        self.send(answer);
     }
 
-    fn initialize(&mut self, params: Value) -> Result<Value, ResponseError> {
+    fn initialize(&mut self, params: Value) -> Result<InitializeResult, ResponseError> {
         let client: InitializeParams = serde_json::from_value(params).map_err(|error| {
             refusal(ErrorCode::InvalidParams, format!("cannot read the parameters of `initialize`: {error}"))
         })?;
@@ -172,8 +173,7 @@ impl Server<'_> {
         self.hints = Hint::wanted(client.initialization_options.as_ref());
         self.phase = Phase::Working;
         self.client_watches = capabilities::watches_files(&client);
-        serde_json::to_value(capabilities::answer(self.encoding))
-            .map_err(|error| refusal(ErrorCode::InternalError, format!("cannot write the answer: {error}")))
+        Ok(capabilities::answer(self.encoding))
     }
 
     /// Asks the client to tell when a library or a part changes on the disk.
@@ -189,7 +189,9 @@ impl Server<'_> {
             register_options: serde_json::to_value(options).ok(),
         };
         let params = RegistrationParams { registrations: vec![registration] };
-        self.send(Request::new(RequestId::from(0), RegisterCapability::METHOD.to_owned(), params));
+        if let Ok(message) = outgoing::request::<RegisterCapability>(RequestId::from(0), params) {
+            self.send(message);
+        }
     }
 
     fn notification(&mut self, notification: Notification) {

@@ -1,5 +1,7 @@
 //! What a request is answered from.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lsp_types::{Location, Position, Range, Uri};
@@ -30,9 +32,21 @@ pub(super) struct Snapshot {
     pub file: FileId,
     /// What positions are counted in.
     pub encoding: Encoding,
+    /// What changed since in each file of `good`; two texts are compared once.
+    shifts: RefCell<BTreeMap<FileId, Shift>>,
 }
 
 impl Snapshot {
+    /// What a request about a document of an analysis is answered from.
+    pub(super) const fn of(
+        now: Arc<Analysis>,
+        good: Option<Arc<Analysis>>,
+        file: FileId,
+        encoding: Encoding,
+    ) -> Self {
+        Self { now, good, file, encoding, shifts: RefCell::new(BTreeMap::new()) }
+    }
+
     /// The text of the document.
     pub(super) fn text(&self) -> &str {
         self.now.sources.file(self.file).text()
@@ -64,7 +78,7 @@ impl Snapshot {
             return Some(Tree { root, snapshot: self, shift: None });
         }
         let (good, file, _) = self.earlier(0)?;
-        let shift = Shift::between(good.sources.file(file).text(), self.text());
+        let shift = self.shift(good, file, self.file);
         Some(Tree { root: good.tree(file)?, snapshot: self, shift: Some(shift) })
     }
 
@@ -95,15 +109,20 @@ impl Snapshot {
     pub(super) fn earlier(&self, offset: usize) -> Option<(&Arc<Analysis>, FileId, usize)> {
         let good = self.good.as_ref()?;
         let file = good.file(self.now.place(self.file)?)?;
-        let shift = Shift::between(good.sources.file(file).text(), self.text());
+        let shift = self.shift(good, file, self.file);
         Some((good, file, shift.earlier(offset)))
+    }
+
+    /// What changed between the text of a file of an earlier analysis and its text of now.
+    fn shift(&self, earlier: &Analysis, file: FileId, now: FileId) -> Shift {
+        let between = || Shift::between(earlier.sources.file(file).text(), self.now.sources.file(now).text());
+        *self.shifts.borrow_mut().entry(file).or_insert_with(between)
     }
 
     /// Where a span of an earlier analysis is in the texts of now.
     fn span_now(&self, earlier: &Analysis, span: Span) -> Option<Span> {
         let file = self.now.file(earlier.place(span.file)?)?;
-        let shift =
-            Shift::between(earlier.sources.file(span.file).text(), self.now.sources.file(file).text());
+        let shift = self.shift(earlier, span.file, file);
         let range = shift.now(span.start as usize..span.end as usize)?;
         let byte = |at| u32::try_from(at).ok();
         Some(Span { file, start: byte(range.start)?, end: byte(range.end)? })

@@ -4,10 +4,11 @@
 //! for as much memory as a length says.
 
 use std::io::{self, BufRead, Read as _, Write};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 
-use lsp_server::{Connection, ErrorCode, Message};
+use lsp_server::{ErrorCode, Message};
 use serde_json::{Value, json};
 
 /// Longest message that is read: a document of the largest size, each byte of which stands as an escape.
@@ -30,15 +31,26 @@ impl Broken {
     }
 }
 
-/// A connection on standard input and output, what was wrong with the input, and the thread that writes. The one that reads
-/// ends with the process: nothing can wake it.
-pub(super) fn stdio() -> (Connection, Broken, JoinHandle<io::Result<()>>) {
+/// Standard input and output.
+pub(super) struct Stdio {
+    /// What the client says.
+    pub messages: Receiver<Message>,
+    /// What it is told.
+    pub answers: Sender<String>,
+    /// What was wrong with the input.
+    pub broken: Broken,
+    /// The thread that writes. The one that reads ends with the process: nothing can wake it.
+    pub writer: JoinHandle<io::Result<()>>,
+}
+
+/// Reads and writes standard input and output from now on.
+pub(super) fn stdio() -> Stdio {
     let broken = Broken::default();
     let noted = broken.clone();
-    let (server, Connection { sender, receiver }) = Connection::memory();
+    let ((sender, messages), (answers, receiver)) = (channel(), channel::<String>());
     // Standard output is taken for one message at a time, as both threads write.
     let writer = thread::spawn(move || {
-        receiver.into_iter().try_for_each(|message| message.write(&mut io::stdout().lock()))
+        receiver.into_iter().try_for_each(|text| write(&text, &mut io::stdout().lock()))
     });
     thread::spawn(move || {
         let mut input = io::stdin().lock();
@@ -50,7 +62,7 @@ pub(super) fn stdio() -> (Connection, Broken, JoinHandle<io::Result<()>>) {
                     }
                 }
                 Ok(Frame::Refused(refusal)) => {
-                    if write(&refusal, &mut io::stdout().lock()).is_err() {
+                    if write(&refusal.to_string(), &mut io::stdout().lock()).is_err() {
                         break;
                     }
                 }
@@ -63,7 +75,7 @@ pub(super) fn stdio() -> (Connection, Broken, JoinHandle<io::Result<()>>) {
             }
         }
     });
-    (server, broken, writer)
+    Stdio { messages, answers, broken, writer }
 }
 
 /// Waits until everything is written.
@@ -147,8 +159,7 @@ fn no_frame(what: &str, found: &dyn std::fmt::Display) -> io::Error {
     )
 }
 
-fn write(value: &Value, output: &mut impl Write) -> io::Result<()> {
-    let text = value.to_string();
+fn write(text: &str, output: &mut impl Write) -> io::Result<()> {
     write!(output, "Content-Length: {}\r\n\r\n{text}", text.len())?;
     output.flush()
 }

@@ -1,38 +1,46 @@
-//! Syntax trees of texts that were read before: of the files of a specification, an edit changes one, and the libraries are the same
-//! in every session.
+//! Syntax trees of the texts of a specification as they were read last: an edit changes one of them, and what is asked about a
+//! text needs the tree that compiling read.
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use od_spec::diag::Diagnostics;
 use od_spec::source::{FileId, SourceFile};
 use od_spec::yaml::{Node, parse};
 
-/// Texts that are remembered: those of a large specification, and a few more.
-const REMEMBERED: usize = 12;
+/// The trees of the files of a specification, each of its last text.
+#[derive(Debug, Default)]
+pub(super) struct Trees(Mutex<BTreeMap<FileId, Read>>);
 
-/// A text with its tree; `None` of what is no YAML.
+/// A text with its tree, `None` of what is no YAML, and what was said about it.
+#[derive(Debug)]
 struct Read {
-    file: FileId,
     text: String,
     tree: Option<Arc<Node>>,
+    said: Diagnostics,
 }
 
-/// What was asked for last comes last.
-static READ: Mutex<Vec<Read>> = Mutex::new(Vec::new());
+impl Read {
+    fn of(file: FileId, source: &SourceFile) -> Self {
+        let mut said = Diagnostics::new();
+        let tree = parse(file, source, &mut said).map(Arc::new);
+        Self { text: source.text().to_owned(), tree, said }
+    }
+}
 
-/// The syntax tree of a file; `None` of what is no YAML.
-pub(super) fn tree(file: FileId, source: &SourceFile) -> Option<Arc<Node>> {
-    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(at) = read.iter().position(|one| one.file == file && one.text == source.text()) {
-        let known = read.remove(at);
-        let tree = known.tree.clone();
-        read.push(known);
-        return tree;
+impl Trees {
+    /// The tree of a text, read if it is not the last text of its file.
+    pub(super) fn tree(
+        &self,
+        file: FileId,
+        source: &SourceFile,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Arc<Node>> {
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        // A tree is several times as large as its text: the earlier one goes before the next is read.
+        all.retain(|of, read| *of != file || read.text == source.text());
+        let read = all.entry(file).or_insert_with(|| Read::of(file, source));
+        diagnostics.append(read.said.clone());
+        read.tree.clone()
     }
-    let tree = parse(file, source, &mut Diagnostics::new()).map(Arc::new);
-    if read.len() == REMEMBERED {
-        read.remove(0);
-    }
-    read.push(Read { file, text: source.text().to_owned(), tree: tree.clone() });
-    tree
 }

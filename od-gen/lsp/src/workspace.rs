@@ -12,6 +12,7 @@ use super::overlay::{Buffers, whole};
 use super::place::Place;
 use super::position::Encoding;
 use super::snapshot::Snapshot;
+use super::trees::Trees;
 use super::uri::uri_of;
 
 /// What is open, and the specifications that it belongs to.
@@ -31,6 +32,8 @@ struct Project {
     now: Option<Arc<Analysis>>,
     /// The last analysis that gave a model.
     good: Option<Arc<Analysis>>,
+    /// The syntax trees of its files.
+    trees: Arc<Trees>,
     /// The places that the last analysis asked for.
     asked: BTreeSet<Place>,
     /// The open documents that belong to it.
@@ -104,7 +107,8 @@ impl Workspace {
             return Some(Arc::clone(now));
         }
         let buffers = &self.buffers;
-        let now = Arc::new(Analysis::of(root, project.members.iter(), buffers, |place| uri(place, buffers)));
+        let members = project.members.iter();
+        let now = Arc::new(Analysis::of(root, members, buffers, &project.trees, |place| uri(place, buffers)));
         if now.system.is_some() {
             project.good = Some(Arc::clone(&now));
         }
@@ -120,7 +124,7 @@ impl Workspace {
         let now = self.analysed(&root)?;
         let file = now.file(&place)?;
         let good = self.projects.get(&root)?.good.clone();
-        Some(Snapshot { now, good, file, encoding })
+        Some(Snapshot::of(now, good, file, encoding))
     }
 
     /// What requests about everything that is open are answered from: each specification once, by its main file.
@@ -129,7 +133,7 @@ impl Workspace {
         let snapshot = |root: &Place| {
             let now = self.analysed(root)?;
             let (file, good) = (now.file(root)?, self.projects.get(root)?.good.clone());
-            Some(Snapshot { now, good, file, encoding })
+            Some(Snapshot::of(now, good, file, encoding))
         };
         roots.iter().filter_map(snapshot).collect()
     }

@@ -120,10 +120,12 @@ impl<'a> Subject<'a> {
 
     /// The device that a condition means.
     fn named(&self, entry: &EntryRef) -> Option<&'a Dictionary> {
-        match &entry.device {
-            Some(key) if *key != self.device.key => self.system.device(key),
-            _ => Some(self.device),
-        }
+        entry.device.as_deref().map_or(Some(self.device), |key| self.device_of(key))
+    }
+
+    /// The device with a key.
+    pub(super) fn device_of(&self, key: &str) -> Option<&'a Dictionary> {
+        if key == self.device.key { Some(self.device) } else { self.system.device(key) }
     }
 
     /// The entry that a condition names, and where its value stands.

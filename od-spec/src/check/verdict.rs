@@ -3,6 +3,7 @@
 //! Each comparison is decided by the values that its sides can have. Several that must hold together are looked at as an order
 //! of terms, too: `a < b` and `b < a` never hold together, although each may.
 
+use std::cell::OnceCell;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -79,9 +80,7 @@ impl<'a> Knowledge<'a> {
 
     /// The entry that a condition names.
     pub(in crate::check) fn entry(&self, named: &EntryRef) -> Option<&'a Entry> {
-        let device = named.device.as_deref().unwrap_or(self.from);
-        let named = EntryRef { device: Some(device.to_owned()), id: named.id };
-        self.subject.named_entry(&named).map(|(entry, _)| entry)
+        self.subject.device_of(named.device.as_deref().unwrap_or(self.from))?.entry(named.id)
     }
 
     fn raw(&self, named: &EntryRef) -> Option<Vec<Run>> {
@@ -202,8 +201,9 @@ impl<'a> Knowledge<'a> {
             return false;
         }
         let order = Order::of(terms.len(), &edges);
-        let ends: Vec<Option<Reach>> = terms.iter().map(|term| hull(&self.reach(term)?)).collect();
-        let breaks_ends = order.pairs().any(|(below, above, step)| match (ends[below], ends[above]) {
+        let reached: Vec<OnceCell<Option<Reach>>> = vec![OnceCell::new(); terms.len()];
+        let ends = |term: usize| *reached[term].get_or_init(|| hull(&self.reach(terms[term])?));
+        let breaks_ends = order.pairs().any(|(below, above, step)| match (ends(below), ends(above)) {
             (Some((low, _)), Some((_, high))) => match low.compare(high) {
                 Some(Ordering::Greater) => true,
                 Some(Ordering::Equal) => step == Step::Below,
@@ -324,10 +324,11 @@ impl Order {
         Self { steps }
     }
 
-    /// Terms that do not lie above other ones.
+    /// Terms that do not lie above others.
     fn pairs(&self) -> impl Iterator<Item = (usize, usize, Step)> + '_ {
         self.steps.iter().enumerate().flat_map(|(from, row)| {
-            row.iter().enumerate().filter_map(move |(to, step)| Some((from, to, (*step)?)))
+            let others = row.iter().enumerate().filter(move |(to, _)| *to != from);
+            others.filter_map(move |(to, step)| Some((from, to, (*step)?)))
         })
     }
 

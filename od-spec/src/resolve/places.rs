@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
+use std::sync::LazyLock;
 
 use crate::model::{Document, ErratumPlace, Index, TableContent, TableId};
 use crate::wording::Language;
@@ -41,10 +42,10 @@ impl Kind {
 
     /// The kind that a number behind this word is of.
     fn of(word: &str) -> Option<Self> {
-        if means(word, &["table", "tables"]) {
+        if TABLE.contains(&word) {
             return Some(Self::Table);
         }
-        means(word, &["figure", "figures"]).then_some(Self::Figure)
+        FIGURE.contains(&word).then_some(Self::Figure)
     }
 }
 
@@ -89,9 +90,23 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Whether a word, in lower case, stands for one of these things in a running text of any language.
-fn means(word: &str, keys: &[&'static str]) -> bool {
-    keys.iter().any(|key| Language::words_of_all(key).any(|one| one == word))
+/// Words of running texts in any language, in lower case.
+type Meaning = LazyLock<Vec<&'static str>>;
+
+static TABLE: Meaning = LazyLock::new(|| words_of(&["table", "tables"]));
+static FIGURE: Meaning = LazyLock::new(|| words_of(&["figure", "figures"]));
+static OVERVIEW: Meaning = LazyLock::new(|| words_of(&["overview"]));
+static BELOW: Meaning = LazyLock::new(|| words_of(&["below"]));
+static AND: Meaning = LazyLock::new(|| words_of(&["and"]));
+static TO: Meaning = LazyLock::new(|| words_of(&["to"]));
+
+fn words_of(keys: &[&'static str]) -> Vec<&'static str> {
+    keys.iter().flat_map(|key| Language::words_of_all(key)).collect()
+}
+
+/// Whether a word stands between the numbers of a list or a run.
+fn is_joint(word: &str) -> bool {
+    AND.contains(&word) || TO.contains(&word)
 }
 
 /// The tables that a place names, by number or as the unnumbered tables with the erratum's objects in a named section.
@@ -166,7 +181,7 @@ impl Words {
             at += 1;
             let kind = Kind::of(word).filter(|_| words.get(at).is_some_and(|next| number(next).is_some()));
             if let Some(kind) = kind {
-                let near = before.is_some_and(|before| means(before, &["below"]));
+                let near = before.is_some_and(|before| BELOW.contains(before));
                 let used = numbers(&words[at..], |first, last| {
                     if !near {
                         read.numbers.push((kind, first..=last));
@@ -175,18 +190,18 @@ impl Words {
                 at += used;
             } else if let Some(section) = places.sections.get(word).copied() {
                 let first = match (before, read.sections.last()) {
-                    (Some(before), Some(last)) if means(before, &["to"]) => last.end() + 1,
+                    (Some(before), Some(last)) if TO.contains(before) => last.end() + 1,
                     _ => section,
                 };
                 read.sections.push(first.min(section)..=section);
-            } else if !means(word, &["and", "to"]) {
+            } else if !is_joint(word) {
                 others.push(*word);
             }
         }
         read.unnumbered = if others.is_empty() {
             read.numbers.is_empty()
         } else {
-            others.iter().any(|word| means(word, &["table", "tables", "overview"]))
+            others.iter().any(|word| TABLE.contains(word) || OVERVIEW.contains(word))
         };
         read
     }
@@ -201,7 +216,7 @@ fn numbers(words: &[&str], mut found: impl FnMut(u32, u32)) -> usize {
     let (mut used, mut last) = (0, None);
     while let Some(word) = words.get(used) {
         match (number(word), last) {
-            (Some(one), Some(first)) if used > 0 && means(words[used - 1], &["to"]) && first < one => {
+            (Some(one), Some(first)) if used > 0 && TO.contains(&words[used - 1]) && first < one => {
                 found(first + 1, one);
                 last = Some(one);
             }
@@ -209,7 +224,7 @@ fn numbers(words: &[&str], mut found: impl FnMut(u32, u32)) -> usize {
                 found(one, one);
                 last = Some(one);
             }
-            (None, _) if means(word, &["and", "to"]) => {
+            (None, _) if is_joint(word) => {
                 // A connector counts only before a further number.
                 if words.get(used + 1).is_none_or(|next| number(next).is_none()) {
                     break;

@@ -2,23 +2,37 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use od_readers::remark;
 use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::names::{DefinitionId, Names};
-use od_spec::source::{FileId, SourceMap, Span};
-use od_spec::yaml::{Node, parse};
+use od_spec::source::{FileId, SourceFile, SourceMap, Span};
+use od_spec::yaml::Node;
 use od_spec::{Loader, compile};
 
 use crate::analysis::Analysis;
+use crate::trees::Trees;
 
-/// Gives texts by their names.
-struct Texts(BTreeMap<String, String>);
+/// Gives texts by their names, and their trees.
+struct Texts {
+    by_name: BTreeMap<String, String>,
+    trees: Trees,
+}
 
 impl Loader for Texts {
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String> {
         let name = Path::new(from).parent().unwrap_or(Path::new("")).join(path).display().to_string();
-        self.0.get(&name).map(|text| text.clone().into_bytes()).ok_or_else(|| "no such file".to_owned())
+        self.by_name.get(&name).map(|text| text.clone().into_bytes()).ok_or_else(|| "no such file".to_owned())
+    }
+
+    fn tree(
+        &mut self,
+        file: FileId,
+        source: &SourceFile,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Arc<Node>> {
+        self.trees.tree(file, source, diagnostics)
     }
 }
 
@@ -27,18 +41,18 @@ pub(super) fn check(now: &Analysis, changes: &[(Span, String)]) -> Result<(), St
     let Some(root) = now.root else { return Err("the specification cannot be read".to_owned()) };
     let texts =
         now.sources.files().map(|(id, file)| (file.name().to_owned(), changed(id, file.text(), changes)));
-    let mut texts = Texts(texts.collect());
+    let mut texts = Texts { by_name: texts.collect(), trees: Trees::default() };
     let name = now.sources.file(root).name();
     let mut sources = SourceMap::new();
-    let root = sources.add(name, texts.0.get(name).cloned().unwrap_or_default());
+    let root = sources.add(name, texts.by_name.get(name).cloned().unwrap_or_default());
     let mut compiled = compile(&mut sources, root, &mut texts);
     remark(&sources, root, &mut compiled);
     if let Some(news) = news(&now.diagnostics, &compiled.diagnostics) {
         return Err(format!("with this name there would be a message: {}", news.message));
     }
-    let trees: BTreeMap<FileId, Option<Node>> =
-        sources.files().map(|(id, file)| (id, parse(id, file, &mut Diagnostics::new()))).collect();
-    let names = Names::of(&sources, root, |file| trees.get(&file)?.as_ref(), compiled.system.as_ref());
+    let tree = |(id, file)| (id, texts.trees.tree(id, file, &mut Diagnostics::new()));
+    let trees: BTreeMap<FileId, Option<Arc<Node>>> = sources.files().map(tree).collect();
+    let names = Names::of(&sources, root, |file| trees.get(&file)?.as_deref(), compiled.system.as_ref());
     if targets(&names) == targets(now.names()) {
         Ok(())
     } else {

@@ -9,7 +9,7 @@ use crate::check::rule::{Check, Needs, Rule};
 use crate::check::subject::Subject;
 use crate::check::verdict::{Knowledge, Link, Verdict, links};
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
-use crate::model::{Constraint, EntryId, EntryRef, Expr, Fact, Value};
+use crate::model::{Constraint, EntryId, EntryRef, Expr, Fact, Term, Value};
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
@@ -30,7 +30,7 @@ const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for_writing(subject, findings);
-    let mut certain: Vec<(&Constraint, View<'_>)> = Vec::new();
+    let mut certain: Vec<Certain<'_>> = Vec::new();
     for constraint in subject.system.constraints_about(&subject.device.key) {
         let views = views(subject, constraint);
         let Some(view) = views.first() else { continue };
@@ -40,7 +40,11 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         }
         if let Some(finding) = decided(view, constraint) {
             findings.push(finding);
-        } else if let Some(other) = against(view, constraint, &certain) {
+            continue;
+        }
+        let Some(links) = demanded(constraint) else { continue };
+        let one = Certain { constraint, from: view.from, links };
+        if let Some(other) = against(view, &one, &certain) {
             let message =
                 format!("`{}` and `{}` never hold together", shorten(&other.name), shorten(&constraint.name));
             findings.push(
@@ -49,7 +53,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                     .help("correct one of the two"),
             );
         } else {
-            certain.push((constraint, *view));
+            certain.push(one);
         }
     }
 }
@@ -84,21 +88,25 @@ fn decided(view: &View<'_>, constraint: &Constraint) -> Option<Diagnostic> {
     Some(explained(&knowledge, condition, Diagnostic::new(CODE, constraint.span, message)).help(help))
 }
 
+/// A constraint that holds in every case, and can hold.
+struct Certain<'a> {
+    constraint: &'a Constraint,
+    /// The device that is meant where it names none.
+    from: &'a str,
+    links: Vec<Link<'a>>,
+}
+
 /// A constraint before this one with which it never holds together.
-fn against<'a>(
-    view: &View<'a>,
-    constraint: &Constraint,
-    before: &[(&'a Constraint, View<'a>)],
-) -> Option<&'a Constraint> {
+fn against<'a>(view: &View<'a>, one: &Certain<'a>, before: &[Certain<'a>]) -> Option<&'a Constraint> {
     let knowledge = Knowledge::of(view.subject, view.from);
-    let own = demanded(constraint)?;
-    before.iter().find_map(|(other, other_view)| {
-        let demanded = demanded(other)?;
-        // Each can hold alone, so that they stand in each other's way only at a term that both have.
-        let is_apart = other_view.from != view.from || !have_common_term(&own, &demanded);
-        let both: Vec<Link<'_>> = own.iter().copied().chain(demanded).collect();
-        (!is_apart && knowledge.contradict(&both)).then_some(*other)
-    })
+    // Each can hold alone, so that they stand in each other's way only at a term that both have.
+    let mut near =
+        before.iter().filter(|other| other.from == one.from && have_common_term(&one.links, &other.links));
+    let other = near.find(|other| {
+        let both: Vec<Link<'_>> = one.links.iter().chain(&other.links).copied().collect();
+        knowledge.contradict(&both)
+    })?;
+    Some(other.constraint)
 }
 
 /// The links that hold in every case.
@@ -109,13 +117,13 @@ fn demanded(constraint: &Constraint) -> Option<Vec<Link<'_>>> {
     }
 }
 
+/// Whether two constraints have a term in common. A number is none: what is compared with it has its ends in either.
 fn have_common_term(links: &[Link<'_>], others: &[Link<'_>]) -> bool {
-    let terms = |(left, _, right)| [left, right];
-    links
-        .iter()
-        .copied()
-        .flat_map(terms)
-        .any(|term| others.iter().copied().flat_map(terms).any(|other| other == term))
+    let mut terms = links.iter().flat_map(|(left, _, right)| [*left, *right]);
+    terms.any(|term| {
+        let is_other = |(left, _, right): &Link<'_>| *left == term || *right == term;
+        !matches!(term, Term::Number(_)) && others.iter().any(is_other)
+    })
 }
 
 /// The conditions under which entries can be written.
