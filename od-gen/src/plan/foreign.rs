@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(names(&var("2000", "---", "")), ["object_2000"]);
         let reserved =
             [var("2000", "entry", ""), var("2001", "?", ""), var("2002", "object 2001", "")].concat();
-        assert_eq!(names(&reserved), ["entry", "object_2001_2001", "object_2001_2002"]);
+        assert_eq!(names(&reserved), ["entry", "object_2001", "object_2001_2002"]);
     }
 
     #[test]
