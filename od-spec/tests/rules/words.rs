@@ -481,7 +481,7 @@ fn faults_of_nodes() -> Vec<(&'static str, String)> {
 }
 
 /// Rules that nothing in an EDS or DCF can break, and why.
-const OUT_OF_REACH: [(&str, &str); 21] = [
+const OUT_OF_REACH: [(&str, &str); 22] = [
     ("OD0420", "it has no views of other entries"),
     ("OD0601", "an EDS has keys for the bit rates of CiA 301 alone"),
     ("OD0606", "it has no conditions between entries"),
@@ -503,6 +503,7 @@ const OUT_OF_REACH: [(&str, &str); 21] = [
     ("OD0883", "its comments tell no base of a symbol"),
     ("OD0885", "it does not say which objects are of a profile"),
     ("OD0890", "it may be that of one device, which has a serial number"),
+    ("OD0898", "tools tell its objects apart by their indices"),
 ];
 
 #[test]
