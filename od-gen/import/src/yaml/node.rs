@@ -1,5 +1,6 @@
 //! A YAML text as a tree: keys in their order, comments above them, and what each part of it says.
 
+use std::collections::BTreeSet;
 use std::fmt::Display;
 
 use od_spec::model::{EntryId, Fact, Index};
@@ -75,6 +76,24 @@ impl Item {
 }
 
 impl Node {
+    /// The texts that stand under a key, wherever it stands.
+    pub(crate) fn texts_under<'n>(&'n self, key: &str, found: &mut BTreeSet<&'n str>) {
+        match self {
+            Self::Text(_) | Self::Plain(_) => {}
+            Self::List(nodes) => nodes.iter().for_each(|node| node.texts_under(key, found)),
+            Self::Map(items) | Self::Block(items) => {
+                for item in items {
+                    match &item.value {
+                        Self::Text(text) if item.key == key => {
+                            found.insert(text);
+                        }
+                        value => value.texts_under(key, found),
+                    }
+                }
+            }
+        }
+    }
+
     /// A word or a number.
     pub(crate) fn plain(value: impl Display) -> Self {
         Self::Plain(format!("{value}"))

@@ -47,9 +47,16 @@ fn attempt(context: &Context<'_>) -> (Written, Vec<String>) {
         items.push(Item { above: vec![String::new()], ..item });
     };
     section(device::device(context, &features));
-    section(Item::new("units", Node::Block(types::units(context))));
-    section(Item::new("types", Node::Block(types::types(context))));
-    section(Item::new("objects", Node::Block(object_items)));
+    let objects = Node::Block(object_items);
+    // What a library says of an object needs no definition here.
+    let named = |key: &str| {
+        let mut found = BTreeSet::new();
+        objects.texts_under(key, &mut found);
+        found
+    };
+    section(Item::new("units", Node::Block(types::units(context, &named("unit")))));
+    section(Item::new("types", Node::Block(types::types(context, &named("type")))));
+    section(Item::new("objects", objects));
     section(Item::new("pdos", Node::Block(pdos::items(context, &short_pdos))));
     let mut written = emit::write(&items);
     let foot = context.options.foot.iter().flat_map(|line| head_line(line));

@@ -1,5 +1,7 @@
 //! Units and types of the file's own.
 
+use std::collections::BTreeSet;
+
 use od_spec::model::{BitField, BitUsage, EnumValue, NamedType, Ratio, TypeKind, Unit};
 
 use super::context::Context;
@@ -7,8 +9,8 @@ use super::node::{Item, Node};
 use super::scalar::spelled;
 use super::texts::{named, one_or_more, words};
 
-/// `units:`.
-pub(super) fn units(context: &Context<'_>) -> Vec<Item> {
+/// `units:`, of those that the text names.
+pub(super) fn units(context: &Context<'_>, named: &BTreeSet<&str>) -> Vec<Item> {
     let item = |unit: &Unit| {
         let mut items = vec![Item::new("symbol", Node::text(unit.symbol.clone()))];
         if unit.scale != Ratio::ONE {
@@ -26,7 +28,8 @@ pub(super) fn units(context: &Context<'_>) -> Vec<Item> {
         items.extend(words(&unit.about, context.language()).map(|about| Item::new("about", about)));
         Item::new(spelled(&context.unit_name(unit)), Node::Map(items))
     };
-    context.units().iter().map(|unit| item(unit)).collect()
+    let units = context.units();
+    units.iter().filter(|unit| named.contains(&*context.unit_name(unit))).map(|unit| item(unit)).collect()
 }
 
 /// `1/10`.
@@ -37,8 +40,8 @@ fn fraction(ratio: Ratio) -> String {
     }
 }
 
-/// `types:`.
-pub(super) fn types(context: &Context<'_>) -> Vec<Item> {
+/// `types:`, of those that the text names.
+pub(super) fn types(context: &Context<'_>, in_text: &BTreeSet<&str>) -> Vec<Item> {
     let item = |named: &NamedType| {
         let mut items = vec![Item::new("base", Node::plain(named.base.name()))];
         items.extend(words(&named.about, context.language()).map(|about| Item::new("about", about)));
@@ -50,7 +53,12 @@ pub(super) fn types(context: &Context<'_>) -> Vec<Item> {
         }
         Item::new(spelled(&context.type_name(named)), Node::Map(items))
     };
-    context.types().iter().map(|named| item(named)).collect()
+    let types = context.types();
+    types
+        .iter()
+        .filter(|named| in_text.contains(&*context.type_name(named)))
+        .map(|named| item(named))
+        .collect()
 }
 
 fn enum_values(context: &Context<'_>, values: &[EnumValue]) -> Vec<Item> {

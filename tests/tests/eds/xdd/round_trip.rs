@@ -2,11 +2,12 @@
 
 use od_formats::eds::{write_dcf, write_eds};
 use od_formats::xdd::{write_xdc, write_xdd};
-use od_spec::diag::Diagnostics;
+use od_import::import;
+use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::model::{Dictionary, Object, System};
 use od_spec::model::{EntryId, Index, SubIndex};
 use od_spec::source::{SourceMap, Spanned};
-use od_spec::{Commissioning, Compiled, Denoted, assign, compile};
+use od_spec::{Commissioning, Compiled, Denoted, add_source, assign, compile};
 use od_tests::{OfWorkspace, compile_clean, root};
 
 use crate::xdd::compiled;
@@ -187,4 +188,25 @@ fn an_xdc_says_what_the_dcf_says() {
     let (third, compiled) = read("everything.xdc", first.clone());
     let second = write_xdc(&third, &third.devices[0], &compiled.node.unwrap().at(None), "everything.xdc");
     assert_eq!(String::from_utf8(second).unwrap(), String::from_utf8(first).unwrap());
+}
+
+/// An XDD has the types and units of the specification; where a library says the same of an object, nothing is left to define.
+#[test]
+fn a_specification_of_an_xdd_defines_nothing_in_vain() {
+    let mut libraries = 0;
+    for path in ["od-spec/devices/pitch-control-system.od.yaml", "od-spec/devices/fullmo-drive.od.yaml"] {
+        let system = compile_clean(path).unwrap();
+        for device in &system.devices {
+            let mut sources = SourceMap::new();
+            let bytes = write_xdd(&system, device);
+            let file = add_source(&mut sources, &format!("{}.xdd", device.key), bytes).unwrap();
+            let xdd = compile(&mut sources, file, &mut OfWorkspace);
+            let text = import(&xdd, &sources, file).unwrap().unwrap().text;
+            libraries += usize::from(text.contains("from: cia301"));
+            let (again, _) = compiled(&format!("{}.od.yaml", device.key), text.into_bytes());
+            let unused: Vec<_> = again.diagnostics.iter().filter(|one| one.code.id == "OD0806").collect();
+            assert_eq!(unused, Vec::<&Diagnostic>::new(), "{path}: {}", device.key);
+        }
+    }
+    assert_eq!(libraries, 3);
 }
