@@ -32,7 +32,7 @@ pub(super) fn holds(plan: &Plan<'_>, entries: &dyn Entries, condition: &Conditio
 fn is_not_met(plan: &Plan<'_>, entries: &dyn Entries, condition: &Condition) -> String {
     let sides = Sides { plan, entries, narrow: condition.narrow };
     let one_fails = |comparisons: &Vec<Compare>| {
-        let links = comparisons.iter().map(|compare| sides.link(compare, negated(compare.op)));
+        let links = comparisons.iter().map(|compare| sides.link(compare, compare.op.opposite()));
         links.collect::<Vec<_>>().join(" || ")
     };
     alternatives(condition.alternatives.iter().map(one_fails), "&&")
@@ -55,17 +55,6 @@ fn alternatives(parts: impl Iterator<Item = String>, between: &str) -> String {
             let parts: Vec<String> = parts.iter().map(|part| format!("({part})")).collect();
             parts.join(&format!(" {between} "))
         }
-    }
-}
-
-const fn negated(op: CompareOp) -> CompareOp {
-    match op {
-        CompareOp::Less => CompareOp::GreaterOrEqual,
-        CompareOp::LessOrEqual => CompareOp::Greater,
-        CompareOp::Equal => CompareOp::NotEqual,
-        CompareOp::NotEqual => CompareOp::Equal,
-        CompareOp::GreaterOrEqual => CompareOp::Less,
-        CompareOp::Greater => CompareOp::LessOrEqual,
     }
 }
 

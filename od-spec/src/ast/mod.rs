@@ -4,11 +4,11 @@ mod entry;
 mod pdos;
 pub(crate) mod plant;
 mod setting;
+mod texts;
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-use crate::diag::{Diagnostic, codes, shorten};
 use crate::expr::{AnyName, Expr, without_names};
 use crate::keys::{
     any_error_keys, axis_keys, block_keys, channel_keys, command_keys, constraint_keys, device_keys,
@@ -20,7 +20,6 @@ use crate::model::{
     Access, BitPattern, BitUsage, ByDevice, Date, DateTime, Direction, Edge, EditorNotes, ErratumKind,
     ErrorKind, Index, Outside, PdoMapping, ProseKind, Ratio, Rounding, Series, SubIndex, Text,
 };
-use crate::running_text::Numbered;
 use crate::source::{FileId, Span, Spanned};
 
 pub(crate) use entry::{BitErrorDecl, DefaultDecl, EdsDecl, EntryDecl, SpecialDecl, adopted};
@@ -30,6 +29,8 @@ pub(crate) use pdos::{
 
 pub use setting::SettingDecl;
 pub(crate) use setting::{CONSUMER_KEYS, Reference};
+pub use texts::Untranslated;
+pub(crate) use texts::{Named, TextMention};
 
 pub(crate) type Words = Option<Spanned<Text>>;
 pub(crate) type Name = Spanned<String>;
@@ -92,41 +93,6 @@ impl Spec {
             [] => vec!["en".to_owned()],
             languages => languages.iter().map(|language| language.value.clone()).collect(),
         }
-    }
-}
-
-/// What a text names.
-#[derive(Debug)]
-pub(crate) struct TextMention {
-    /// The place of the text.
-    pub place: Span,
-    pub named: Named,
-}
-
-/// Something that a text can name.
-#[derive(Debug)]
-pub(crate) enum Named {
-    /// A table, figure or section, with its number.
-    Numbered(Numbered, String),
-    /// An object.
-    Object(Index),
-}
-
-/// A text that lacks one of the languages of its specification.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Untranslated {
-    /// The place of the text.
-    pub place: Span,
-    /// The code of the language.
-    pub language: String,
-}
-
-impl Untranslated {
-    /// The finding about this text alone.
-    pub fn note(&self) -> Diagnostic {
-        let message = format!("this text is not in `{}`", shorten(&self.language));
-        Diagnostic::new(codes::ONE_LANGUAGE, self.place, message)
     }
 }
 

@@ -93,7 +93,7 @@ fn wrong_kind_for(node: &Node, expected: &str, example: &str, diagnostics: &mut 
     );
 }
 
-/// Reports what stands twice in a list of names or numbers, in which each counts once.
+/// Reports what is listed twice in a list of names or numbers, in which each counts once.
 fn check_set(items: &[Node], item: Shape, diagnostics: &mut Diagnostics) {
     let is_set = match item {
         // Files are not joined twice; that is said by itself.
@@ -112,7 +112,7 @@ fn check_set(items: &[Node], item: Shape, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Reports what stands twice in a list. A number is the same in any notation; a name with a number, as features with channels have
+/// Reports what is listed twice. A number is the same in any notation; a name with a number, as features with channels have
 /// it, is the same with the same number.
 pub(super) fn named_once(items: &[Node], diagnostics: &mut Diagnostics) {
     let mut before = BTreeMap::new();
@@ -128,7 +128,7 @@ pub(super) fn named_once(items: &[Node], diagnostics: &mut Diagnostics) {
                 Diagnostic::new(
                     codes::NAMED_TWICE,
                     name.span,
-                    format!("`{}` stands twice in the list", shorten(name.value)),
+                    format!("`{}` is listed twice", shorten(name.value)),
                 )
                 .with(*first, "before")
                 .help("remove one of the two, or name what was meant"),

@@ -149,7 +149,7 @@ codes! {
     DUPLICATE_PDO Error "OD0501" "a PDO is defined twice":
         "Two PDOs of one device and direction have one number."
     PATTERN_WIDTH Error "OD0603" "a bit pattern of the wrong width":
-        "A state or command pattern has one place for each bit of the entry it describes, which is of an integer type: the bits of a text, a REAL or a time stand for no states."
+        "A state or command pattern has one place for each bit of the entry it describes, which is of an integer type: the bits of a text, a REAL or a time are no states."
     COMMAND_MISMATCH Error "OD0604" "a command code against its pattern":
         "The value under `send:` does not have the bits that `pattern:` demands."
     AMBIGUOUS_STATES Error "OD0605" "states that look the same":
@@ -267,7 +267,7 @@ codes! {
             "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, about: The limit is object 2001h.}\n  0x2001: {name: limit, type: unsigned8, access: ro}"
         )]
     NO_CHANGE Warning "OD0865" "an erratum that changes nothing":
-        "An erratum says what the manual prints and how it is read. Here both are equal, so that nobody learns what is wrong with the manual. Correct one of them, or remove the erratum."
+        "An erratum says what the manual prints and how it is read. Here both are equal, so the erratum does not show what is wrong with the manual. Correct one of them, or remove the erratum."
     DISGUISED Warning "OD0866" "a word that is not what it looks like":
         "Letters of the Cyrillic and the Greek script look like Latin ones, and some characters have no width. A word with one of them looks as it should, but it is another word: a search does not find it, a reference to it does not match, and an EDS, which is ASCII, has other letters. They come from texts that were copied, or from a keyboard that was switched. `odgen fix` writes the Latin letters. Words that are Cyrillic or Greek as a whole are not meant."
         [Example::new(
@@ -275,7 +275,7 @@ codes! {
             "objects:\n  0x2000: {name: speed, type: unsigned8, access: ro}"
         )]
     ISSUE_ORDER Warning "OD0867" "an issue of the manual out of order":
-        "`history:` lists the issues of the manual from the first to the last, or the other way round, and `revision:` says which one the specification is of. A date that goes back is a wrong digit, or the issue stands in the wrong place."
+        "`history:` lists the issues of the manual from the first to the last, or the other way round, and `revision:` says which one the specification is of. Where a date goes back, a digit is wrong or the issue is in the wrong place."
         [Example::new(
             "revision: {number: \"1.1\", date: 2020-05-27}\nhistory: [{number: \"1.0\", date: 2021-02-01}, {number: \"1.1\", date: 2020-05-27}]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro}",
             "revision: {number: \"1.1\", date: 2020-05-27}\nhistory: [{number: \"1.0\", date: 2019-02-01}, {number: \"1.1\", date: 2020-05-27}]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro}"
@@ -284,10 +284,10 @@ codes! {
         "CANopenNode has a configuration of its own, and takes some things otherwise than the dictionary says. The files are made and compile; the message tells what is to be done in the project that takes them, or what is different on the bus."
     COB_ID_OF_OTHER_NODE Warning "OD0861" "a COB-ID of the node-ID that a file is for":
         "A DCF or XDC is the configuration of one node, and a command takes it for another node-ID. Values that the node-ID formula of their default gives follow the node-ID. This COB-ID does not: the file has a number without a formula, and it is one of those that CiA 301 reserves for the first node-ID (table 34). If both nodes are on one bus, both send the same message, or receive what is meant for the other. Many tools resolve `$NODEID` when they write a DCF, so that its defaults are numbers as well: make the file of another node from the EDS or the specification. A COB-ID that is meant like this can be set on purpose."
-    NAMED_TWICE Warning "OD0894" "a name that stands twice in a list":
-        "A list of devices, features, languages or the like names something twice. Once is enough, so that probably another name was meant, and what it stands for is missing. Remove one of the two, or name what was meant."
+    NAMED_TWICE Warning "OD0894" "a name that is listed twice":
+        "A list of devices, features, languages or the like names something twice. Once is enough: probably another name was meant, which is missing now. Remove one of the two, or name what was meant."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
-        "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only cannot both stand in it, nor a name and what is made beside another one: `set level` and the setter of `level`. Nothing is renamed silently, as firmware would come to depend on it; only a word that the language or generated code needs itself gets a `_` behind it. Write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
+        "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only cannot both be in it, nor a name and what is made beside another one: `set level` and the setter of `level`. Nothing is renamed silently, as firmware would come to depend on it; only a word that the language or generated code needs itself gets a `_` behind it. Write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":
         "Generated code makes identifiers from the letters and digits of a name, and this one has none. Write `identifier:`."
     NO_CAPACITY Error "OD0903" "a string without a capacity":

@@ -177,7 +177,7 @@ pub(super) fn errata(
         {
             diagnostics.push(
                 Diagnostic::new(codes::NO_CHANGE, reads.span, "this is what the manual prints")
-                    .with(prints.span, "it stands here")
+                    .with(prints.span, "it is here")
                     .help("say how the manual is read, or remove the erratum"),
             );
         }
@@ -327,12 +327,12 @@ fn is_new<N: Ord + Copy + fmt::Display, T>(
     diagnostics: &mut Diagnostics,
 ) {
     if let Some(before) = before.insert(number, place.span) {
-        let message = format!("{what} {} stands twice", shorten(&number.to_string()));
+        let message = format!("{what} {} is written twice", shorten(&number.to_string()));
         diagnostics.push(
             Diagnostic::new(codes::DUPLICATE_VALUE, place.span, message)
                 .label("again here")
                 .with(before, "first here")
-                .help(format!("each numbered {what} of the manual stands once")),
+                .help(format!("give each {what} a number of its own")),
         );
     }
 }

@@ -11,12 +11,12 @@ pub(super) fn check(root: &Spec, diagnostics: &mut Diagnostics) {
     let mut listed: BTreeMap<&str, Span> = BTreeMap::new();
     for number in root.history.iter().filter_map(|issue| issue.number.as_ref()) {
         if let Some(before) = listed.insert(&number.value, number.span) {
-            let message = format!("issue {} stands twice", shorten(&number.value));
+            let message = format!("issue {} is listed twice", shorten(&number.value));
             diagnostics.push(
                 Diagnostic::new(codes::DUPLICATE_VALUE, number.span, message)
                     .label("again here")
                     .with(before, "first here")
-                    .help("each issue of the manual stands once"),
+                    .help("give each issue a number of its own"),
             );
         }
     }

@@ -4,17 +4,16 @@
 //! decided by the place that expects it (see [`crate::scalar`]), so that `no`, `1.10` and `0x6040` never
 //! change their meaning behind the author's back.
 
+mod characters;
 pub(crate) mod gaps;
 mod lenient;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
 
 use granit_parser::{Event, Parser, ScalarStyle};
 
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::source::{FileId, SourceFile, Span, Spanned};
-use crate::text::look_alike::{Disguise, disguised};
 use crate::visible::turning;
 
 pub use lenient::lenient;
@@ -184,8 +183,7 @@ pub(crate) fn parse_as(
     file: &SourceFile,
     diagnostics: &mut Diagnostics,
 ) -> Option<Node> {
-    refuse_turned_text(id, file.text(), diagnostics);
-    report_disguised_words(id, file.text(), diagnostics);
+    characters::check(id, file.text(), diagnostics);
     let options = granit_parser::options! { emit_comments: false, emit_unresolved_aliases: true };
     let mut builder = Builder {
         id,
@@ -222,49 +220,6 @@ pub(crate) fn parse_as(
         }
         root => root,
     }
-}
-
-/// Refuses characters that make the text around them look like another, wherever they stand, in comments, too.
-fn refuse_turned_text(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
-    for (at, c) in turning(text) {
-        let span = span_in(id, at..at + c.len_utf8());
-        diagnostics.push(turned(span, c).edit(span, ""));
-    }
-}
-
-/// Reports words in which characters look like others, or like nothing.
-fn report_disguised_words(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
-    for found in disguised(text) {
-        let (code, word) = (u32::from(found.character), shorten(found.word));
-        let (message, help) = match found.disguise {
-            Disguise::Latin(letter) => (
-                format!("`{word}` has U+{code:04X}, which looks like `{letter}`"),
-                "write the Latin letter; a name with another one is another name",
-            ),
-            Disguise::Invisible => (
-                format!("`{word}` has U+{code:04X}, which cannot be seen"),
-                "remove the character; a name with it is another name",
-            ),
-        };
-        let (start, end) = (found.start, found.start + found.word.len());
-        diagnostics.push(
-            Diagnostic::new(codes::DISGUISED, span_in(id, start..end), message)
-                .help(help)
-                .edit(span_in(id, start..end), found.plain()),
-        );
-    }
-}
-
-fn span_in(file: FileId, range: Range<usize>) -> Span {
-    let place = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
-    Span { file, start: place(range.start), end: place(range.end) }
-}
-
-fn turned(span: Span, c: char) -> Diagnostic {
-    let message = format!("found U+{:04X}, which turns the text around it", u32::from(c));
-    Diagnostic::new(codes::TURNED_TEXT, span, message)
-        .label("what is seen here is not what is written")
-        .help("remove the character; letters of every script have a direction of their own")
 }
 
 /// A collection that is being read.
@@ -362,7 +317,7 @@ impl Builder<'_> {
             && let Some((_, c)) = turning(text).next()
             && turning(&self.text[span.start as usize..span.end as usize]).next().is_none()
         {
-            self.diagnostics.push(turned(span, c));
+            self.diagnostics.push(characters::turned(span, c));
         }
     }
 

@@ -403,15 +403,7 @@ fn condition_code(values: &Values<'_, '_>, condition: &Condition, at: &At) -> To
 fn not_met_code(values: &Values<'_, '_>, condition: &Condition, at: &At) -> TokenStream {
     let one_fails = |comparisons: &[Compare]| {
         let links = comparisons.iter().map(|compare| {
-            let negated = match compare.op {
-                CompareOp::Less => CompareOp::GreaterOrEqual,
-                CompareOp::LessOrEqual => CompareOp::Greater,
-                CompareOp::Equal => CompareOp::NotEqual,
-                CompareOp::NotEqual => CompareOp::Equal,
-                CompareOp::GreaterOrEqual => CompareOp::Less,
-                CompareOp::Greater => CompareOp::LessOrEqual,
-            };
-            let link = comparison(values, compare, negated, condition.narrow, at);
+            let link = comparison(values, compare, compare.op.opposite(), condition.narrow, at);
             with_divisors(values, compare, link, condition.narrow, at)
         });
         quote!(#(#links)||*)

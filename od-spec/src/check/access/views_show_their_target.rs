@@ -15,8 +15,8 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "a view that cannot show its target",
     explanation: "An alias shows another entry in a narrower type or another unit. This one shows none of the values that its target can have, not the default, or one number for all of \
-        them; or it cuts a bit field, and a value that does not fit becomes the largest number, in which all bits are set. Whoever reads the view is told what is not so, and whoever \
-        writes it cannot reach what the target takes. Give the alias a wider type or another unit; for the lower bits of a bit field, `outside: wrap`.",
+        them; or it cuts a bit field, and a value that does not fit becomes the largest number, in which all bits are set. The view then reads as another value, and a \
+        write through it cannot reach what the target takes. Give the alias a wider type or another unit; for the lower bits of a bit field, `outside: wrap`.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: speed, type: unsigned16, access: rw, default: 1000, min: 500}\n  0x2001: {name: short speed, alias: speed, type: unsigned8}",

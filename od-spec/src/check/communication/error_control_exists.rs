@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "neither heartbeat nor node guarding",
-    explanation: "CiA 301 demands one of the two: without them no master notices that the device has gone. The same holds where the time of the only one is 0 and nobody can write it. Add the feature \
+    explanation: "CiA 301 demands one of the two: without them no master notices that the device has gone. The same holds where the time of the only one is 0 and cannot be written. Add the feature \
         `heartbeat producer`, or let its time be written.",
     clause: Some("CiA 301, objects 100Ch, 100Dh and 1017h"),
     example: Some(Example::new(

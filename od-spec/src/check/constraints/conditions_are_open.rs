@@ -99,7 +99,7 @@ struct Certain<'a> {
 /// A constraint before this one with which it never holds together.
 fn against<'a>(view: &View<'a>, one: &Certain<'a>, before: &[Certain<'a>]) -> Option<&'a Constraint> {
     let knowledge = Knowledge::of(view.subject, view.from);
-    // Each can hold alone, so that they stand in each other's way only at a term that both have.
+    // Each can hold alone, so a conflict needs a term that both have.
     let mut near =
         before.iter().filter(|other| other.from == one.from && have_common_term(&one.links, &other.links));
     let other = near.find(|other| {
@@ -151,7 +151,7 @@ fn for_writing(subject: &Subject<'_>, findings: &mut Findings) {
                 .help("correct the condition; values are compared in physical units"),
         );
     }
-    // As long as nobody can write an entry, it keeps its default; what waits for another value waits for ever.
+    // As long as an entry cannot be written, it keeps its default; what waits for another value waits for ever.
     let kept = waiting
         .iter()
         .filter_map(|(id, entry, _)| Some((*id, entry.default.as_ref().and_then(Value::integer)?)));

@@ -17,7 +17,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "a device type without its objects",
     explanation: "The low word of 1000h names a device profile, and masters that know the profile use its objects without looking: for 402, a drive, controlword, statusword, \
-        mode of operation and its display (6040h, 6041h, 6060h, 6061h; of a second axis 6840h and so on). A high word of FFFFh says that several profiles are united, each of which tells its own type in 67FFh, \
+        mode of operation and its display (6040h, 6041h, 6060h, 6061h; of a second axis 6840h and so on). A high word of FFFFh says that several profiles are united, each of which has its own type in 67FFh, \
         6FFFh and so on. Some of these objects are missing. Add them, or correct `device-type:`.",
     clause: Some("CiA 301, object 1000h; CiA 402, objects that every drive has"),
     example: Some(Example::new(

@@ -1,4 +1,4 @@
-//! Objects of a device profile stand in a device whose type names the profile.
+//! Objects of a device profile belong to a device whose type names the profile.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "objects of a profile that the device type does not name",
-    explanation: "6000h to 9FFFh mean what a device profile says, and the low word of 1000h tells which one: 401 for I/O modules, 402 for drives, 0 for none. The device has objects of a profile \
+    explanation: "6000h to 9FFFh mean what a device profile says, and the low word of 1000h says which one: 401 for I/O modules, 402 for drives, 0 for none. The device has objects of a profile \
         that its type does not name, so that masters do not treat it as what it is; or objects of its own in this area, although it names no profile. A frequent cause is a number written \
         as hexadecimal: 402 is 192h. Correct `device-type:`, or move objects of the maker's own to 2000h to 5FFFh.",
     clause: Some("CiA 301, table 1 and object 1000h"),

@@ -13,7 +13,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "a reaction to an error that cannot be",
     explanation: "`treated-by:` names devices among those that report the error; one that does not report it has nothing to treat, and the documents would show a reaction that never happens. `option-code:` \
-        names the entry by which a master chooses the reaction; where that can only be read, nobody chooses. Correct the devices, or name the entry that is meant.",
+        names the entry by which a master chooses the reaction; where that can only be read, no master can choose. Correct the devices, or name the entry that is meant.",
     clause: None,
     example: Some(Example::new(
         "errors:\n  0x4310: {name: too hot, option-code: 0x2000}\nobjects:\n  0x2000: {name: reaction, type: unsigned8, access: ro}",
@@ -46,7 +46,7 @@ fn fixed(system: &System, error: &ErrorCode) -> Option<Diagnostic> {
         return None;
     }
     let message =
-        format!("{id} is `{}`: nobody chooses the reaction to {:04X}h with it", access.word(), error.code);
+        format!("{id} is `{}`: the reaction to {:04X}h cannot be chosen with it", access.word(), error.code);
     Some(
         Diagnostic::new(CODE, error.span, message)
             .help("name an entry that can be written, or make this one `rw`"),

@@ -52,7 +52,7 @@ fn check(system: &System, findings: &mut Findings) {
 fn check_access(machine: &StateMachine, status: &Entry, command: &Entry, findings: &mut Findings) {
     let (status_place, command_place) = machine.entry_places;
     let problem = match status.access {
-        Access::Wo => Some("nobody can read the state"),
+        Access::Wo => Some("the state cannot be read"),
         // A machine of one state shows nothing else.
         Access::Const if machine.states.len() > 1 => Some("the state it shows never changes"),
         Access::Const | Access::Ro | Access::Rw | Access::Rwr | Access::Rww => None,
@@ -66,7 +66,7 @@ fn check_access(machine: &StateMachine, status: &Entry, command: &Entry, finding
     }
     if !command.access.is_writable() && !machine.commands.is_empty() {
         let message =
-            format!("{} is `{}`: nobody can write a command", machine.command, command.access.word());
+            format!("{} is `{}`: a command cannot be written", machine.command, command.access.word());
         findings.push(
             Diagnostic::new(CODE, machine.place(command_place), message)
                 .help("make the entry `rw`, or name another one as `command:`"),

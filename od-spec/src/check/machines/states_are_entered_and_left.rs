@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a state that is never entered or never left",
-    explanation: "The transitions of a state machine lead from its start to each of its states, and on from there. Without a start, or with two, nobody knows how it begins, and generated code leaves \
+    explanation: "The transitions of a state machine lead from its start to each of its states, and on from there. Without a start, or with two, its beginning is undefined, and generated code leaves \
         that to the firmware; a state that no path leads to is never shown; one that no transition leaves, such as a fault without a reset, holds the device until it is switched off. \
         Most often a transition is missing, or names another state. The message shows the path. Where switching off is meant to be the only way out, say so under `allow:`.",
     clause: None,
@@ -109,7 +109,7 @@ fn check_return(machine: &StateMachine, from_start: &Reach<'_>, findings: &mut F
         .filter(|state| from_start.has(&state.name) && state.name != first && !leads_to(&state.name, first));
     let Some(state) = lost.next() else { return };
     let next = Reach::of(machine, std::iter::once(state.name.as_str()));
-    // An end has been told.
+    // An end is reported already.
     if machine.states.iter().any(|state| next.has(&state.name) && is_end(machine, state)) {
         return;
     }

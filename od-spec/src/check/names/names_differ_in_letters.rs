@@ -20,8 +20,8 @@ pub const CODE: &Code = &Code {
     title: "names that differ in nothing but capitals and signs",
     explanation: "Things in one list, such as the error codes of a device, the states of a machine or the special values of an entry, have one name, or \
         names that differ in capitals, blanks and signs only. People take one for the other, and generated code, whose identifiers consist of \
-        letters and digits, cannot tell them apart: there the same is an error. Give each a name of its own. Of a run of error codes, `{n}` in \
-        the name stands for the number.",
+        letters and digits, cannot distinguish them: there the same is an error. Give each a name of its own. Of a run of error codes, `{n}` in \
+        the name is replaced by the number.",
     clause: None,
     example: Some(Example::new(
         "errors:\n  0xFF01: {name: valve stuck}\n  0xFF02: {name: Valve stuck!}",
@@ -29,7 +29,7 @@ pub const CODE: &Code = &Code {
     )),
 };
 
-/// A name, and where it stands.
+/// A name, and where it is written.
 type Named<'a> = (&'a str, Span);
 
 fn check(system: &System, findings: &mut Findings) {
@@ -202,7 +202,7 @@ impl Lists<'_> {
         };
         let diagnostic = Diagnostic::new(CODE, blamed, message);
         let diagnostic = match places.as_slice() {
-            [_] => diagnostic.help("write `{n}` into the name; it stands for the number"),
+            [_] => diagnostic.help("write `{n}` in the name, for the number"),
             _ => diagnostic.label(name_at(blamed)).help(help),
         };
         let others = places.iter().copied().filter(|place| *place != blamed).take(SHOWN);

@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "more messages than the bus carries",
-    explanation: "The event timers of the TPDOs, the SYNC period and the heartbeat time tell how often the device sends at least. A frame with n bytes of data takes 47 + 8n bits, stuffing not counted; here \
+    explanation: "The event timers of the TPDOs, the SYNC period and the heartbeat time determine how often the device sends at least. A frame with n bytes of data takes 47 + 8n bits, stuffing not counted; here \
         the sum is more than the fastest bit rate of the device carries, so that messages come late or never, and those of other nodes with a higher identifier do not come at all. \
         Write longer times, map less, or add a bit rate.",
     clause: Some("CiA 301, objects 1006h, 1017h and 1800h"),

@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a function that is off and cannot be switched on",
-    explanation: "The entry switches a function of the device on and off; it says \"off\", and nobody can write it. The device has the function, its PDO or its message, and never does anything with \
+    explanation: "The entry switches a function of the device on and off; it says \"off\", and it cannot be written. The device has the function, its PDO or its message, and never does anything with \
         it. Make the entry `rw`, give it another value, or leave the function out.",
     clause: Some("CiA 301, objects 1006h and 1014h; CiA 401, objects 6005h and 6423h"),
     example: Some(Example::new(

@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Note,
     title: "an object that acts on one that is not there",
     explanation: "1006h, 1007h and 1019h say how SYNC comes, which needs 1005h; 1015h holds back emergency messages, which need 1014h; 1F51h, 1F56h and 1F57h are about the programs of 1F50h, 1F21h about the files of 1F20h, and dates have times; an NMT master \
-        (bit 0 of 1F80h) finds its slaves in 1F81h. Without the other object this one does nothing, and whoever sets it waits in vain. Add the other one, or remove this one.",
+        (bit 0 of 1F80h) finds its slaves in 1F81h. Without the other object this one does nothing, and setting it has no effect. Add the other one, or remove this one.",
     clause: Some("CiA 301, objects 1005h to 1007h, 1014h, 1015h and 1019h; CiA 302, objects 1F20h to 1F81h"),
     example: Some(Example::new(
         "objects:\n  0x1015: {from: cia301}",

@@ -14,8 +14,8 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "stored by the command of another area",
-    explanation: "1010h.2 stores the communication profile (1000h to 1FFFh), and 1010h.3 the device profile (6000h to 9FFFh), each with what the maker adds from 2000h to 5FFFh. Whoever \
-        stores one of the two finds that this entry was not kept, or that 1011h has reset it. Correct `stored:`.",
+    explanation: "1010h.2 stores the communication profile (1000h to 1FFFh), and 1010h.3 the device profile (6000h to 9FFFh), each with what the maker adds from 2000h to 5FFFh. Storing \
+        one of the two leaves this entry out, and 1011h resets it with the other. Correct `stored:`.",
     clause: Some("CiA 301, objects 1010h and 1011h"),
     example: Some(Example::new(
         "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer, store parameters]}\nobjects:\n  0x1017: {from: cia301, stored: application}",
@@ -36,7 +36,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let message = format!("{id} ({}) is {area}, which 1010h.{command} does not store", entry.name);
         findings.push(subject.finding(CODE, id, entry, Fact::Storage, message).help(subject.help(Help {
             specification: "correct `stored:`",
-            eds: "correct the comment that tells what stores it",
+            eds: "correct the comment that names what stores it",
             setting: "nothing that is set changes what stores the entry",
         })));
     }

@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Note,
     title: "a link that leads nowhere else",
     explanation: "The links of an object name others that belong together with it, such as the limits of a value. A link to an object that the device does not have leads nowhere: \
-        whoever follows it searches in vain. One to the object itself says nothing; another index was meant. Correct the index, or remove the link. Indices below 1000h are those of data types, which are no objects of a device here; links to \
+        a reader who follows it finds nothing. One to the object itself says nothing; another index was meant. Correct the index, or remove the link. Indices below 1000h are those of data types, which are no objects of a device here; links to \
         them are not judged.",
     clause: Some("CiA 306 4.6.4"),
     example: Some(Example::new(

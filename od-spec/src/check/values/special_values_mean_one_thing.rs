@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "a special value that is an ordinary one, too",
     explanation: "A special value says something else than a number: that there is none, or that another is meant. One between `min` and `max`, one that the enum lists, or one that is a usual \
-        combination of bits has two meanings, and whoever reads it cannot tell which. Take a value outside the limits, or narrow them. The value 0 and the limits themselves are not \
+        combination of bits has two meanings, and a reader cannot know which. Take a value outside the limits, or narrow them. The value 0 and the limits themselves are not \
         judged: 0 is often `off`, and the last value of a range often something else.",
     clause: None,
     example: Some(Example::new(

@@ -13,7 +13,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a unit on something that is no quantity",
-    explanation: "A unit tells what one step of a number is worth. The values of an enum are names, those of a bit field are bits, and a text, a truth value, a time with its date or a block \
+    explanation: "A unit says what one step of a number is worth. The values of an enum are names, those of a bit field are bits, and a text, a truth value, a time with its date or a block \
         of bytes has no steps. Masters and documents would show such a value as so many volts. Remove `unit:`, or correct the type. A number that has a few values with a meaning of \
         their own keeps its unit with `special:`.",
     clause: None,

@@ -209,7 +209,7 @@ fn head(node: u8, asked: &str) -> Vec<String> {
         &format!("A first specification of node {node}, made from what it answered when these objects were read:"),
         &format!("{asked}. Nothing was written to it."),
         "Objects of standards have the names, types and access types of the standard, where the length of the value",
-        "agrees. Of all others the node tells only how long a value is: names, signs, units, limits, and what can be",
+        "agrees. Of all others the node shows only how long a value is: names, signs, units, limits, and what can be",
         "written or mapped are to be added. What is not in an RPDO is `ro` until then, and a value of the length of an",
         "integer is one without a sign. Defaults are the values that were read; the serial number, error lists and what",
         "PDOs carry have none. Further bit rates, LSS and the name of the maker are not to be had from a node.",
