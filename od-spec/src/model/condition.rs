@@ -350,3 +350,25 @@ impl fmt::Display for Term {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Generated code negates the conditions of cases with this, at equal sides, too.
+    #[test]
+    fn an_opposite_operator_accepts_exactly_the_rest() {
+        for op in [
+            CompareOp::Less,
+            CompareOp::LessOrEqual,
+            CompareOp::Equal,
+            CompareOp::NotEqual,
+            CompareOp::GreaterOrEqual,
+            CompareOp::Greater,
+        ] {
+            for order in [Ordering::Less, Ordering::Equal, Ordering::Greater] {
+                assert_ne!(op.accepts(order), op.opposite().accepts(order), "{op:?} {order:?}");
+            }
+        }
+    }
+}
