@@ -269,7 +269,7 @@ codes! {
     NO_CHANGE Warning "OD0865" "an erratum that changes nothing":
         "An erratum says what the manual prints and how it is read. Here both are equal, so the erratum does not show what is wrong with the manual. Correct one of them, or remove the erratum."
     DISGUISED Warning "OD0866" "a word that is not what it looks like":
-        "Letters of the Cyrillic and the Greek script look like Latin ones, and some characters have no width. A word with one of them looks as it should, but it is another word: a search does not find it, a reference to it does not match, and an EDS, which is ASCII, has other letters. They come from texts that were copied, or from a keyboard that was switched. `odgen fix` writes the Latin letters. Words that are Cyrillic or Greek as a whole are not meant."
+        "Letters of the Cyrillic and the Greek script look like Latin ones, and some characters have no width. A word with one of them looks as it should, but it is another word: a search does not find it, a reference to it does not match, and an EDS, which is ASCII, has other letters. They come from texts that were copied, or from a keyboard that was switched. An editor with the language server offers the word with the Latin letters. Words that are Cyrillic or Greek as a whole are not meant."
         [Example::new(
             "objects:\n  0x2000: {name: sp\u{435}ed, type: unsigned8, access: ro}",
             "objects:\n  0x2000: {name: speed, type: unsigned8, access: ro}"

@@ -137,3 +137,12 @@ fn strict_holds_an_eds_to_the_standard() {
     let output = odgen(&scratch.0, &["check", "lamp.od.yaml", "--strict", "--format", "short"]);
     assert_eq!((code(&output), stderr(&output)), (0, String::new()));
 }
+
+/// `odgen fix` takes EDS and DCF files; of a specification, an editor makes the changes.
+#[test]
+fn repairs_are_promised_for_files_that_are_repaired() {
+    let scratch = Scratch::new("no-repairs");
+    scratch.file("lamp.od.yaml", LAMP.replace("name: Lamp", "name: L\u{430}mp"));
+    let said = stderr(&odgen(&scratch.0, &["check", "--notes", "lamp.od.yaml"]));
+    assert!(said.contains("warning[OD0866]") && !said.contains("odgen fix"), "{said}");
+}

@@ -44,6 +44,16 @@ pub(super) enum Kind {
     Unknown,
 }
 
+impl Kind {
+    /// Whether `odgen fix` takes a file of this kind.
+    pub(super) const fn is_fixed(self) -> bool {
+        match self {
+            Self::Eds => true,
+            Self::Specification | Self::Unknown => false,
+        }
+    }
+}
+
 impl Checked {
     /// For the renderer of a whole run.
     pub(super) fn findings(&self) -> Findings<'_> {
@@ -80,7 +90,7 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy, report: &R
     for diagnostic in &policy.apply(&diagnostics, errors) {
         if diagnostic.severity == Severity::Note && !args.notes {
             hidden_notes += 1;
-            hidden_repairs += usize::from(!diagnostic.edits.is_empty());
+            hidden_repairs += usize::from(kind.is_fixed() && !diagnostic.edits.is_empty());
         } else {
             shown.push(diagnostic.clone());
         }

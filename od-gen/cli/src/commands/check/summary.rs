@@ -30,7 +30,7 @@ pub(super) fn of_file(checked: &Checked, files: usize) -> Option<String> {
     let objects = checked.objects.and_then(|objects| plural(objects, "object"));
     let facts = [Some(counts), objects].into_iter().flatten().collect::<Vec<_>>().join(", ");
     let mut line = format!("{}: {facts}", visible(&checked.name));
-    if let Some(repairs) = repairs(&checked.shown) {
+    if let Some(repairs) = repairs(&checked.shown).filter(|_| checked.kind.is_fixed()) {
         let _ = write!(line, " ({repairs})");
     }
     if let Some(notes) = plural(checked.hidden_notes, "note") {
