@@ -31,7 +31,7 @@ pub struct PrintedTable {
     pub title: Cell,
     /// Its picture, where the manual numbers it.
     pub figure: Option<PrintedFigure>,
-    /// Number of the section that it stands in.
+    /// Number of the section that it is in.
     pub section: String,
     /// What fills it.
     pub kind: &'static str,
@@ -68,11 +68,11 @@ pub struct Difference {
     pub kind: &'static str,
     /// Objects or entries whose rows are concerned: `3020h.5`.
     pub entries: Vec<String>,
-    /// Column of these rows, where the fact stands in one.
+    /// Column of these rows, where the fact is in one.
     pub column: Option<&'static str>,
     /// What the manual prints.
     pub prints: String,
-    /// What stands here.
+    /// What is printed here.
     pub reads: String,
 }
 
@@ -80,7 +80,7 @@ fn text_only<S: serde::Serializer>(cell: &Cell, serializer: S) -> Result<S::Ok, 
     serializer.serialize_str(&cell.text)
 }
 
-/// The column in which a fact stands.
+/// The column in which a fact is.
 const fn column(kind: ErratumKind, content: &TableContent) -> Option<&'static str> {
     let detail = matches!(content, TableContent::Objects(_));
     if !detail && !matches!(content, TableContent::Overview(_)) {

@@ -1,4 +1,4 @@
-//! Mistakes in a user's templates are told with a place.
+//! Mistakes in a user's templates are reported with a place.
 
 use docs_gen::{Format, Templates};
 

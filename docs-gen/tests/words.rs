@@ -115,7 +115,7 @@ fn systems() -> Vec<Specification> {
     SPECIFICATIONS.iter().map(read).chain(own.map(|(name, text)| system(name, text))).collect()
 }
 
-/// What stands for a word in a document, to see where templates print it.
+/// What replaces a word in a document, to see where templates print it.
 fn marker(key: &str) -> String {
     format!("\u{ab}{key}\u{bb}")
 }
@@ -138,7 +138,7 @@ fn take_shown(missing: &mut BTreeMap<&'static str, &str>, mut context: Context) 
     let markers: Vec<(&'static str, &'static str)> =
         context.words.keys().map(|key| (*key, &*marker(key).leak())).collect();
     context.words = BTreeMap::new();
-    // Words that the view itself brings stand in it as they are.
+    // Words that the view itself has are in it as they are.
     let view = Value::from(Serde(&context)).to_string();
     missing.retain(|_, text| !text.split("{1}").all(|part| has_words(&view, part.trim())));
     context.words = markers.into_iter().collect();

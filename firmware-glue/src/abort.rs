@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// Why an access was refused, as an SDO server tells its client (CiA 301 table 20).
+/// Why an access was refused, as an SDO server reports it to its client (CiA 301 table 20).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(transparent)]
 pub struct AbortCode(pub u32);

@@ -6,8 +6,9 @@
 //! ([`pdo`]), parameter storage, conditions between entries ([`Constrained`]), physical units ([`Quantity`]).
 //!
 //! An SDO server needs five functions: [`Dictionary::upload`] and [`Dictionary::write`] for values,
-//! [`Dictionary::upload_domain`] and [`Dictionary::download_domain`] for DOMAINs, and [`Dictionary::info`] to tell them apart.
-//! A PDO handler needs [`pdo::pack`] and [`pdo::unpack`]. A firmware with a stack of its own needs nothing else.
+//! [`Dictionary::upload_domain`] and [`Dictionary::download_domain`] for DOMAINs, and [`Dictionary::info`] to
+//! distinguish them. A PDO handler needs [`pdo::pack`] and [`pdo::unpack`]. A firmware with a stack of its own needs
+//! nothing else.
 //!
 //! The services of a node are types of their own ([`sdo`], [`pdo::engine`], [`nmt`], [`sync`], [`emcy`], [`lss`]), and [`Node`] joins
 //! them: frames go in, frames come out, and the time is passed in. A firmware links what it calls.
@@ -24,7 +25,7 @@
 //! # Features
 //!
 //! - `defmt`: `defmt::Format` for codes, events, states, frames and values, also in generated code; not for tables and for the services themselves
-//! - `critical-section`: `Shared`, a dictionary behind short critical sections
+//! - `critical-section`: `Shared`, a dictionary inside short critical sections
 //! - `embedded-can`: `Frame::of_driver` and `Frame::for_driver`, for the frames of CAN drivers
 //! - `sdo-block`: block transfers of the SDO server and client
 //! - `storage`: `storage::ParameterStore`, parameters in flash that survive a power failure at any byte

@@ -63,7 +63,7 @@
 //! assert_eq!((lamp.state(), words.status), (Lamp::Off, 0));
 //! ```
 
-/// How a device makes a transition that nobody commands.
+/// How a device makes a transition that is not commanded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ByDevice {
@@ -154,8 +154,9 @@ pub trait StateHandler<S: MachineState> {
 /// cycle and, so that no edge is missed, after each write to the command word (`Application::changed`); [`event`](Self::event), when something
 /// happens to the device.
 ///
-/// A word commands as long as it stands in the dictionary, as the levels of a control word do: `0x000F` leads from "ready to switch on" in two steps to
-/// "operation enabled". A firmware that does not want that calls [`command`](Self::command) with each word that is written, and nothing else.
+/// A word commands as long as it is in the dictionary, as the levels of a control word do: `0x000F` leads from "ready
+/// to switch on" in two steps to "operation enabled". A firmware that does not want that calls
+/// [`command`](Self::command) with each word that is written, and nothing else.
 #[derive(Debug, Clone)]
 pub struct StateMachine<S: MachineState> {
     state: S,

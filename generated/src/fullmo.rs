@@ -3732,7 +3732,7 @@ pub mod pdos {
     );
 }
 
-/// Enums and bit fields: newtypes around raw values, also around those that nobody named.
+/// Enums and bit fields: newtypes around raw values, also around those without a name.
 #[allow(dead_code, unreachable_pub)]
 pub mod types {
     /// EMCY COB-ID: CAN-Kennung einer Emergency-Nachricht. Solange die Nachricht gültig ist (Bit 31 ist 0), lassen sich die Bits 0 bis 29 nicht ändern.
@@ -5108,7 +5108,7 @@ pub mod types {
     }
 }
 
-/// Raw values with a meaning of their own, beside the ordinary ones.
+/// Raw values with a meaning of their own, in addition to the ordinary ones.
 #[allow(dead_code, unreachable_pub)]
 pub mod specials {
     /// heartbeat off (0).

@@ -26,7 +26,7 @@ impl Pmc {
         Self(glue::image::with_node_id(FACTORY, &NODE_ID_PLACES, node_id))
     }
 
-    /// `1000h` Device type: Tells which device profile the device follows and, in the high word, what the profile wants known about the kind of device. (CiA 301 v4.02, 9.6.3)
+    /// `1000h` Device type: States which device profile the device follows and, in the high word, what the profile wants known about the kind of device. (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED32, ro, default 0x00020192.
     #[inline]
@@ -99,7 +99,7 @@ impl Pmc {
         "PMC"
     }
 
-    /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells what the device can do. (CiA 301 v4.02, 9.6.3)
+    /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading shows what the device can do. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn store_parameters(&self) -> records::StoreParameters<&Self> {
         records::StoreParameters(self)
@@ -111,7 +111,7 @@ impl Pmc {
         records::StoreParameters(self)
     }
 
-    /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells whether the device can do it. (CiA 301 v4.02, 9.6.3)
+    /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading shows whether the device can do it. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn restore_default_parameters(
         &self,
@@ -1377,7 +1377,7 @@ impl Pmc {
         units::Permille(glue::get_u16(&self.0, 438))
     }
 
-    /// Sets [`max_current`](Self::max_current). The device's own values are not held against the limits.
+    /// Sets [`max_current`](Self::max_current). The device's own values are not checked against the limits.
     #[inline]
     pub fn set_max_current(&mut self, value: units::Permille<u16>) {
         glue::put_u16(&mut self.0, 438, value.0);
@@ -2741,7 +2741,7 @@ firmware::defmt_text!(Entry);
 pub mod records {
     use core::borrow::{Borrow, BorrowMut};
 
-    /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells what the device can do. (CiA 301 v4.02, 9.6.3)
+    /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading shows what the device can do. (CiA 301 v4.02, 9.6.3)
     #[derive(Debug)]
     pub struct StoreParameters<D>(pub(super) D);
 
@@ -2816,7 +2816,7 @@ pub mod records {
         }
     }
 
-    /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells whether the device can do it. (CiA 301 v4.02, 9.6.3)
+    /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading shows whether the device can do it. (CiA 301 v4.02, 9.6.3)
     #[derive(Debug)]
     pub struct RestoreDefaultParameters<D>(pub(super) D);
 
@@ -3206,13 +3206,13 @@ pub mod records {
     }
 
     impl<D: BorrowMut<super::Pmc>> GearRatio<D> {
-        /// Sets [`motor_revolutions`](Self::motor_revolutions). The device's own values are not held against the limits.
+        /// Sets [`motor_revolutions`](Self::motor_revolutions). The device's own values are not checked against the limits.
         #[inline]
         pub fn set_motor_revolutions(&mut self, value: u32) {
             super::glue::put_u32(&mut self.0.borrow_mut().0, 368, value);
         }
 
-        /// Sets [`shaft_revolutions`](Self::shaft_revolutions). The device's own values are not held against the limits.
+        /// Sets [`shaft_revolutions`](Self::shaft_revolutions). The device's own values are not checked against the limits.
         #[inline]
         pub fn set_shaft_revolutions(&mut self, value: u32) {
             super::glue::put_u32(&mut self.0.borrow_mut().0, 372, value);
@@ -3250,7 +3250,7 @@ pub mod records {
             super::glue::put_u32(&mut self.0.borrow_mut().0, 376, value.0);
         }
 
-        /// Sets [`shaft_revolutions`](Self::shaft_revolutions). The device's own values are not held against the limits.
+        /// Sets [`shaft_revolutions`](Self::shaft_revolutions). The device's own values are not checked against the limits.
         #[inline]
         pub fn set_shaft_revolutions(&mut self, value: u32) {
             super::glue::put_u32(&mut self.0.borrow_mut().0, 380, value);
@@ -3286,7 +3286,7 @@ pub mod records {
             super::glue::put_u8(&mut self.0.borrow_mut().0, 514, value);
         }
 
-        /// Sets [`time_index`](Self::time_index). The device's own values are not held against the limits.
+        /// Sets [`time_index`](Self::time_index). The device's own values are not checked against the limits.
         #[inline]
         pub fn set_time_index(&mut self, value: i8) {
             super::glue::put_i8(&mut self.0.borrow_mut().0, 515, value);
@@ -3947,7 +3947,7 @@ pub mod records {
             super::glue::put_u16(&mut self.0.borrow_mut().0, 506, value.0);
         }
 
-        /// Sets [`max_pwm_frequency`](Self::max_pwm_frequency). The device's own values are not held against the limits.
+        /// Sets [`max_pwm_frequency`](Self::max_pwm_frequency). The device's own values are not checked against the limits.
         #[inline]
         pub fn set_max_pwm_frequency(&mut self, value: super::units::Kilohertz<u16>) {
             super::glue::put_u16(&mut self.0.borrow_mut().0, 508, value.0);
@@ -4537,7 +4537,7 @@ pub mod pdos {
     );
 }
 
-/// Enums and bit fields: newtypes around raw values, also around those that nobody named.
+/// Enums and bit fields: newtypes around raw values, also around those without a name.
 #[allow(dead_code, unreachable_pub)]
 pub mod types {
     /// EMCY COB-ID: CAN-ID of an emergency message. Bits 0 to 29 cannot be changed while the message is valid (bit 31 is 0).
@@ -5899,7 +5899,7 @@ pub mod types {
         "position polarity", }
     }
 
-    /// restore capability: What reading an entry of 1011h tells.
+    /// restore capability: What reading an entry of 1011h returns.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct RestoreCapability(pub u32);
@@ -6354,7 +6354,7 @@ pub mod types {
         "manufacturer specific", }
     }
 
-    /// store capability: What reading an entry of 1010h tells.
+    /// store capability: What reading an entry of 1010h returns.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct StoreCapability(pub u32);
@@ -6524,7 +6524,7 @@ pub mod types {
     }
 }
 
-/// Raw values with a meaning of their own, beside the ordinary ones.
+/// Raw values with a meaning of their own, in addition to the ordinary ones.
 #[allow(dead_code, unreachable_pub)]
 pub mod specials {
     /// heartbeat off (0).

@@ -26,7 +26,7 @@ impl Pmm {
         Self(glue::image::with_node_id(FACTORY, &NODE_ID_PLACES, node_id))
     }
 
-    /// `1000h` Device type: Tells which device profile the device follows and, in the high word, what the profile wants known about the kind of device. (CiA 301 v4.02, 9.6.3)
+    /// `1000h` Device type: States which device profile the device follows and, in the high word, what the profile wants known about the kind of device. (CiA 301 v4.02, 9.6.3)
     ///
     /// UNSIGNED32, ro, default 0x00000000.
     #[inline]
@@ -99,7 +99,7 @@ impl Pmm {
         "PMM"
     }
 
-    /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells what the device can do. (CiA 301 v4.02, 9.6.3)
+    /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading shows what the device can do. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn store_parameters(&self) -> records::StoreParameters<&Self> {
         records::StoreParameters(self)
@@ -111,7 +111,7 @@ impl Pmm {
         records::StoreParameters(self)
     }
 
-    /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells whether the device can do it. (CiA 301 v4.02, 9.6.3)
+    /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading shows whether the device can do it. (CiA 301 v4.02, 9.6.3)
     #[inline]
     pub const fn restore_default_parameters(
         &self,
@@ -1438,7 +1438,7 @@ impl Pmm {
         }
     }
 
-    /// Sets [`selftest_time`](Self::selftest_time). The device's own values are not held against the limits.
+    /// Sets [`selftest_time`](Self::selftest_time). The device's own values are not checked against the limits.
     #[inline]
     pub fn set_selftest_time(
         &mut self,
@@ -2629,7 +2629,7 @@ firmware::defmt_text!(Entry);
 pub mod records {
     use core::borrow::{Borrow, BorrowMut};
 
-    /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells what the device can do. (CiA 301 v4.02, 9.6.3)
+    /// `1010h` Store parameters: Saves parameters to non-volatile memory. Writing the signature "save" (65766173h, sent as 73h 61h 76h 65h) starts saving, and the answer comes when it is done; a wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading shows what the device can do. (CiA 301 v4.02, 9.6.3)
     #[derive(Debug)]
     pub struct StoreParameters<D>(pub(super) D);
 
@@ -2704,7 +2704,7 @@ pub mod records {
         }
     }
 
-    /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading tells whether the device can do it. (CiA 301 v4.02, 9.6.3)
+    /// `1011h` Restore default parameters: Goes back to the default values. Writing the signature "load" (64616F6Ch, sent as 6Ch 6Fh 61h 64h) marks the parameters for restoring; the defaults become valid with the next reset or power-on. A wrong signature is refused with 0800 002xh, a failure with 0606 0000h. Reading shows whether the device can do it. (CiA 301 v4.02, 9.6.3)
     #[derive(Debug)]
     pub struct RestoreDefaultParameters<D>(pub(super) D);
 
@@ -4323,7 +4323,7 @@ pub mod pdos {
     );
 }
 
-/// Enums and bit fields: newtypes around raw values, also around those that nobody named.
+/// Enums and bit fields: newtypes around raw values, also around those without a name.
 #[allow(dead_code, unreachable_pub)]
 pub mod types {
     /// 24V supply status: Status of the 24 V feed-in.
@@ -6045,7 +6045,7 @@ pub mod types {
         ManualStatus = "manual status" { 0..= 3 => "function", 4..= 4 => "busy", }
     }
 
-    /// restore capability: What reading an entry of 1011h tells.
+    /// restore capability: What reading an entry of 1011h returns.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct RestoreCapability(pub u32);
@@ -6105,7 +6105,7 @@ pub mod types {
         "major revision", }
     }
 
-    /// store capability: What reading an entry of 1010h tells.
+    /// store capability: What reading an entry of 1010h returns.
     #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
     #[repr(transparent)]
     pub struct StoreCapability(pub u32);
@@ -6350,7 +6350,7 @@ pub mod types {
     }
 }
 
-/// Raw values with a meaning of their own, beside the ordinary ones.
+/// Raw values with a meaning of their own, in addition to the ordinary ones.
 #[allow(dead_code, unreachable_pub)]
 pub mod specials {
     /// heartbeat off (0).
@@ -8080,7 +8080,7 @@ impl firmware::Constrained for Pmm {
 pub mod constraints {
     /// dc-link voltage ladder: The thresholds of the DC link have to keep this order, from the under voltage limit of the PMC up to its over voltage limit. Only two pairs may be equal: target voltage of the booster and switch-off voltage of the chopper, and maximal DC link voltage and over voltage limit of the PMC.
     ///
-    /// `pmc:0x6510.4 < 0x30FA.3 < 0x30FB.8 < 0x30FA.1 < 0x30FB.7 <= 0x30FC.2 < 0x30FC.1 < 0x30FA.2 <= pmc:0x6510.5`. Only what can be told from this device.
+    /// `pmc:0x6510.4 < 0x30FA.3 < 0x30FB.8 < 0x30FA.1 < 0x30FB.7 <= 0x30FC.2 < 0x30FC.1 < 0x30FA.2 <= pmc:0x6510.5`. Only what can be known from this device.
     pub fn dc_link_voltage_ladder(dictionary: &super::Pmm) -> bool {
         i64::from(super::glue::get_u16(&dictionary.0, 364))
             < i64::from(super::glue::get_u16(&dictionary.0, 380))

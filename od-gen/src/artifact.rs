@@ -18,9 +18,9 @@ pub struct Artifact {
 pub trait OutputFile {
     /// Path below the output directory, with `/` between its parts.
     fn path(&self) -> &str;
-    /// Contents, in pieces that stand one behind the other.
+    /// Contents, in pieces that follow one another.
     fn pieces(&self) -> Vec<&[u8]>;
-    /// The first of the pieces that is not empty: a mark of who made the file stands there.
+    /// The first of the pieces that is not empty: the mark of the maker of the file is there.
     fn head(&self) -> &[u8] {
         self.pieces().into_iter().find(|piece| !piece.is_empty()).unwrap_or_default()
     }
@@ -41,7 +41,7 @@ impl OutputFile for Artifact {
 pub struct SharedFile {
     /// Path below the output directory, with `/` between its parts.
     pub path: String,
-    /// Contents, in pieces that stand one behind the other.
+    /// Contents, in pieces that follow one another.
     pub pieces: Vec<Arc<[u8]>>,
 }
 
@@ -64,7 +64,7 @@ pub struct Pool {
 impl Pool {
     /// A piece with these contents.
     pub fn piece(&self, contents: &[u8]) -> Arc<[u8]> {
-        // A set in which somebody stopped halfway is one without that piece.
+        // A set whose writing stopped halfway is one without that piece.
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(piece) = known.get(contents) {
             return Arc::clone(piece);

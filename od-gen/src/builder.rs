@@ -81,7 +81,7 @@ impl fmt::Display for BuildError {
 
 impl std::error::Error for BuildError {}
 
-/// What a build script tells cargo.
+/// What a build script reports to cargo.
 struct Outcome {
     read: Vec<PathBuf>,
     /// One line about an EDS or DCF, in place of its messages.
@@ -116,9 +116,9 @@ impl Builder {
         self
     }
 
-    /// Writes `KEY.rs` for each device and tells cargo about it. Mistakes in the specification appear as errors of the build,
-    /// with their places and with help, and end the process with exit code 1; warnings appear as warnings, notes not at all. Of an EDS or DCF, which
-    /// is read whatever is wrong with it, one warning says how much that is.
+    /// Writes `KEY.rs` for each device and reports them to cargo. Mistakes in the specification appear as errors of the
+    /// build, with their places and with help, and end the process with exit code 1; warnings appear as warnings, notes
+    /// not at all. Of an EDS or DCF, which is read whatever is wrong with it, one warning says how much that is.
     #[expect(clippy::print_stdout, clippy::print_stderr, reason = "cargo reads what a build script prints")]
     pub fn generate(&self) {
         let outcome = self.run();
@@ -196,7 +196,7 @@ impl Builder {
                     }
                 },
                 None => diagnostics.push(not_written(
-                    "there is no `OUT_DIR`, as this is no build script",
+                    "there is no `OUT_DIR`, because this is not a build script",
                     "say where the modules go, with `out_dir`",
                 )),
             }

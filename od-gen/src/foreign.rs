@@ -1,5 +1,5 @@
-//! What is said about an EDS or DCF where it is only used: how much `odgen check` finds in it, and no more. Who uses it can
-//! rarely change it, and it is read whatever is wrong with it.
+//! What is said about an EDS or DCF where it is only used: how much `odgen check` finds in it, and no more. A user of
+//! it can rarely change it, and it is read whatever is wrong with it.
 
 use std::path::Path;
 

@@ -20,7 +20,7 @@ impl Provenance {
         Self { name: visible(&name).into_owned() }
     }
 
-    /// Name of the specification's file, as it can stand in a comment of one line.
+    /// Name of the specification's file, as it can be in a comment of one line.
     pub fn name(&self) -> &str {
         &self.name
     }

@@ -76,7 +76,7 @@ fn opened(path: &Path, sources: &mut SourceMap, loader: &mut FileLoader) -> Resu
     Ok(root)
 }
 
-/// [`compile_file_as`], of bytes that were read already: the name stands for the path.
+/// [`compile_file_as`], of bytes that were read already: the name replaces the path.
 pub fn compile_bytes_as(
     strictness: Strictness,
     name: &str,
@@ -155,7 +155,7 @@ pub fn files_of_specifications_in(directory: &Path) -> io::Result<Vec<PathBuf>> 
 /// Adds a file to what messages have their places in.
 ///
 /// # Errors
-/// It cannot be read, which has the `help`, or is no text.
+/// It cannot be read, which has the `help`, or is not a text.
 pub fn open(path: &Path, help: &str, sources: &mut SourceMap) -> Result<FileId, Box<Diagnostic>> {
     let name = path.display().to_string();
     let bytes = read_bytes(path).map_err(|reason| {

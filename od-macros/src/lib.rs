@@ -21,7 +21,7 @@ use od_gen::{Expansion, expand};
 use proc_macro::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 use quote::quote;
 
-/// Puts the items of a device's object dictionary where it stands, which should be a module of its own.
+/// Puts the items of a device's object dictionary where it is written, which should be a module of its own.
 ///
 /// The first argument is the path of the specification, EDS or DCF, relative to the package (the directory of its `Cargo.toml`);
 /// `device = "KEY"` chooses a device and can be left out if there is only one.
@@ -36,7 +36,7 @@ pub fn object_dictionary(input: TokenStream) -> TokenStream {
     }
 }
 
-/// What stands between the parentheses.
+/// What is between the parentheses.
 struct Arguments {
     path: String,
     /// The literal with the path: where errors are shown.
@@ -130,7 +130,7 @@ impl Arguments {
 }
 
 /// Whether a warning was not given yet in this crate, for another device of the same specification: the compiler is a process for
-/// each crate. Errors are always given, as what the macro stands for is missing without them.
+/// each crate. Errors are always given, because what the macro expands to is missing without them.
 fn is_new(warning: &str) -> bool {
     static GIVEN: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     GIVEN.lock().unwrap_or_else(PoisonError::into_inner).insert(warning.to_owned())

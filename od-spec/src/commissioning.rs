@@ -27,7 +27,8 @@ pub struct Commissioning {
     pub net_number: u32,
     /// Name of the network; may be empty.
     pub net_name: String,
-    /// Serial number by which LSS finds the node, and which nobody sets over the bus; that of the identity (1018h.4) where none is stated.
+    /// Serial number by which LSS finds the node, and which is not set over the bus; that of the identity (1018h.4)
+    /// where none is stated.
     pub serial_number: Option<u32>,
     /// Whether the node is the CANopen manager of the network.
     pub manager: bool,
@@ -39,7 +40,7 @@ pub struct Commissioning {
     pub values: ParameterValues,
     /// Locked entries among the values: the device takes these only while it is unlocked for service.
     pub unlocked: BTreeSet<EntryId>,
-    /// What objects and entries are called in the application; beside the names that the device gives them.
+    /// What objects and entries are called in the application, in addition to the names that the device gives them.
     pub denotations: BTreeMap<Denoted, String>,
     /// Reference designations of objects and entries.
     pub references: BTreeMap<Denoted, String>,
@@ -125,7 +126,7 @@ impl Commissioning {
         }
     }
 
-    /// The device as this node is: the values stand where the defaults were, and PDOs are what their parameters then say.
+    /// The device as this node is: the values are where the defaults were, and PDOs are what their parameters then say.
     pub fn configured(&self, device: &Dictionary) -> Dictionary {
         let mut configured = device.clone();
         for (id, value) in &self.values {
@@ -186,7 +187,7 @@ impl TextOfNode {
         }
     }
 
-    /// The text without blanks around it; `option` is where it was said.
+    /// The text without spaces around it; `option` is where it was said.
     ///
     /// # Errors
     /// A line of a DCF cannot hold it.
@@ -205,7 +206,7 @@ impl TextOfNode {
 /// A bit rate in kbit/s that a device supports.
 ///
 /// # Errors
-/// The device does not support it, or it is no number.
+/// The device does not support it, or it is not a number.
 pub fn bit_rate(device: &Dictionary, text: &str) -> Result<u16, Diagnostic> {
     let rates = device.info.bit_rates.iter().map(u16::to_string).collect::<Vec<_>>().join(", ");
     let rate = text.trim().parse::<u16>().ok().filter(|rate| device.info.bit_rates.contains(rate));
@@ -215,7 +216,7 @@ pub fn bit_rate(device: &Dictionary, text: &str) -> Result<u16, Diagnostic> {
             format!("`{}` does not support a bit rate of `{text}` kbit/s", device.key),
         )
         .help(if rates.is_empty() {
-            "nobody says which bit rates it supports; state them in its specification".to_owned()
+            "its bit rates are not stated; state them in its specification".to_owned()
         } else {
             format!("it supports {rates} kbit/s")
         })

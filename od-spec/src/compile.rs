@@ -109,7 +109,7 @@ pub fn is_specification(text: &str) -> bool {
     yaml::begins_with(text, keys::SPEC_VERSION)
 }
 
-/// Whether a text shows by its beginning or its name what it is, and is no specification.
+/// Whether a text shows by its beginning or its name what it is, and is not a specification.
 pub(crate) fn is_known(file: &SourceFile) -> bool {
     let (name, text) = (file.name(), file.text());
     eds::is_eds(name, text) || xdd::is_xdd(name, text) || is_parameter_file(text) || is_plant(text)
@@ -119,7 +119,7 @@ pub(crate) fn is_known(file: &SourceFile) -> bool {
 fn no_specification(file: &SourceFile, whole: Span) -> Option<Diagnostic> {
     let text = file.text();
     let (what, key, help) = if is_parameter_file(text) {
-        let help = "name it behind the specification: `odgen dcf SPEC --params FILE`, with `--explain` to check it without writing anything";
+        let help = "name it after the specification: `odgen dcf SPEC --params FILE`, with `--explain` to check it without writing anything";
         ("a parameter file", keys::PARAMETERS_VERSION, help)
     } else if is_plant(text) {
         let help = "`odgen plant check FILE` checks it, `odgen plant build FILE` makes its files";
@@ -140,7 +140,8 @@ pub(crate) fn findings(sources: &SourceMap, file: FileId) -> Diagnostics {
     compile_eds(standard::rules(&check::RULES), sources, file, Strictness::Standard, None).diagnostics
 }
 
-/// An EDS or DCF goes the way of a specification, but for its reader. `modules` are plugged in, or those that it names.
+/// An EDS or DCF goes the way of a specification, except for its reader. `modules` are plugged in, or those that it
+/// names.
 fn compile_eds(
     rules: check::Rules<'_>,
     sources: &SourceMap,
@@ -192,7 +193,7 @@ fn compile_xdd(
     compiled
 }
 
-/// Without the feature, what an XDD is can be told, and no more.
+/// Without the feature, what an XDD is can be reported, and no more.
 #[cfg(not(feature = "xdd"))]
 fn compile_xdd(
     _: check::Rules<'_>,
@@ -362,7 +363,7 @@ fn libraries(
 }
 
 fn no_library(name: &Spanned<String>) -> Diagnostic {
-    let message = format!("`{}` is no library", shorten(&name.value));
+    let message = format!("`{}` is not a library", shorten(&name.value));
     Diagnostic::new(codes::NOT_A_LIBRARY, name.span, message)
         .help("a library has `profile: NAME` at its top level and no `uses:` of its own")
 }
@@ -390,7 +391,7 @@ mod tests {
     use crate::{NoFiles, compile};
 
     #[test]
-    fn without_a_reader_it_is_told_what_the_file_is() {
+    fn without_a_reader_it_is_reported_what_the_file_is() {
         let mut sources = SourceMap::new();
         let root = sources.add("tank.xdd", "<ISO15745ProfileContainer/>");
         let compiled = compile(&mut sources, root, &mut NoFiles);

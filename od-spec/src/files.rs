@@ -1,4 +1,5 @@
-//! Texts from files: who gives them, how large they may be and how they are written; and the files that a specification names.
+//! Texts from files: where they come from, how large they may be and how they are written; and the files that a
+//! specification names.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -17,14 +18,14 @@ const LARGEST_FILE: usize = 64 << 20;
 
 /// Gives the compiler the files that a specification names by path, libraries and parts, and says what to take of them.
 pub trait Loader {
-    /// The bytes of `path`, which stands in the file named `from`.
+    /// The bytes of `path`, which is named in the file named `from`.
     ///
     /// # Errors
     /// Why there are none, in a few words such as "no such file".
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String>;
 
-    /// The syntax tree of a specification, a part of one or a library; `None` with a message of what is no YAML. Whoever
-    /// compiles a text again, or wants its tree, keeps what was read.
+    /// The syntax tree of a specification, a part of one or a library; `None` with a message of what is no YAML. A
+    /// caller that compiles a text again, or wants its tree, keeps what was read.
     fn tree(
         &mut self,
         file: FileId,
@@ -51,12 +52,12 @@ impl Loader for NoFiles {
 }
 
 /// Whether a text may be a specification, a part of one or a library: it has the key that all of them have, or that of a
-/// part. Any other text may be anybody's: no message quotes it.
+/// part. Any other text may be confidential: no message quotes it.
 pub fn may_be_specification(text: &[u8]) -> bool {
     [SPEC_VERSION, PART_OF].into_iter().any(|key| has_key(text, key))
 }
 
-/// Whether a key may stand somewhere in a text.
+/// Whether a key may be somewhere in a text.
 fn has_key(text: &[u8], key: &str) -> bool {
     memchr::memmem::find_iter(text, key).any(|at| {
         let rest = text.get(at + key.len()..).unwrap_or_default();
@@ -65,8 +66,8 @@ fn has_key(text: &[u8], key: &str) -> bool {
     })
 }
 
-/// The text of the file of a name that stands in the file `from`. `missing` says that there is none, with a reason, and
-/// `other` that it is something else.
+/// The text of the file of a name that is written in the file `from`. `missing` says that there is none, with a reason,
+/// and `other` that it is something else.
 pub(crate) fn read(
     name: &Spanned<String>,
     from: &str,
@@ -101,7 +102,7 @@ pub(crate) fn twice(what: &str, first: Span, again: &Spanned<String>) -> Diagnos
 /// Adds the bytes of a file: a specification in UTF-8, or an EDS or DCF in whatever it is.
 ///
 /// # Errors
-/// As [`read_text`]; of an EDS, the code page is one that is not read (OD0102), or it is none of CANopen (OD0121).
+/// As [`read_text`]; of an EDS, the code page is one that is not read (OD0102), or it is not one of CANopen (OD0121).
 pub fn add_source(sources: &mut SourceMap, name: &str, bytes: Vec<u8>) -> Result<FileId, Box<Diagnostic>> {
     if bytes.len() <= LARGEST_FILE {
         if eds::has_eds_name(name) || xdd::has_xdd_name(name) {

@@ -1,4 +1,4 @@
-//! Puts right what can be put right without guessing.
+//! Fixes what can be fixed without guessing.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -75,11 +75,11 @@ impl Fixed {
 /// ```
 ///
 /// # Errors
-/// The code page of the file is one that is not read (OD0102), or it is none of CANopen (OD0121).
+/// The code page of the file is one that is not read (OD0102), or it is not one of CANopen (OD0121).
 pub fn fix(name: &str, bytes: &[u8]) -> Result<Fixed, Box<Diagnostic>> {
     let (text, encoding) = decode(name, bytes.to_vec())?;
     let mut fixed = rounds(name, text, encoding, findings);
-    // A mark in front of the text, or two bytes for each character, are no part of the text.
+    // A mark in front of the text, or two bytes for each character, are not part of the text.
     if fixed.text().is_ascii() && fixed.encoding != Encoding::Ascii {
         let mark = fixed.left.iter().find(|one| one.code == BYTE_ORDER_MARK);
         fixed.changes.extend(mark.map(|one| Change { place: 0..0, code: one.code }));
@@ -122,8 +122,8 @@ fn rounds(
     fixed
 }
 
-/// Whether the bytes of a text stand for that text. How characters are stored is a guess where nothing says it, and may become
-/// another guess when some of them are gone.
+/// Whether the bytes of a text represent that text. How characters are stored is a guess where nothing says it, and may
+/// become another guess when some of them are gone.
 fn is_read_alike(text: &str, encoding: Encoding) -> bool {
     let stands_for_it = |bytes| encoding::decode(bytes).is_ok_and(|(again, _)| again == text);
     text.is_ascii() || encode(text, encoding).is_ok_and(stands_for_it)
@@ -244,7 +244,7 @@ mod tests {
     use crate::eds::codes;
     use crate::source::Span;
 
-    /// Whoever looks, two changes of one place are made one after the other, and the first by place comes first.
+    /// In every case, two changes of one place are made one after the other, and the first by place comes first.
     #[test]
     fn changes_of_one_place_are_made_in_rounds() {
         let look = |sources: &SourceMap, file: FileId| {
@@ -270,7 +270,7 @@ mod tests {
         assert!(changes.contains(&(1..3, codes::BAD_FLAG.id)), "{changes:?}");
     }
 
-    /// What looks like a mark in front of a text is none as long as the rest is no UTF-8.
+    /// What looks like a mark in front of a text is not one as long as the rest is no UTF-8.
     #[test]
     fn the_rest_of_a_text_is_read_as_before() {
         let bytes = b"\xEF\xBB\xBF[FileInfo]\nDescription=a lamp\n;\xE4\n".as_slice();

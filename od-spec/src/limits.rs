@@ -1,5 +1,5 @@
-//! How much a file may describe. A few lines can stand for millions of entries: a run of indices, of arrays, on many devices.
-//! What no device has is refused before it is made.
+//! How much a file may describe. A few lines can describe millions of entries: a run of indices, of arrays, on many
+//! devices. What no device has is refused before it is made.
 
 /// Devices of a file. A network has 127 nodes; a file may describe a family of products.
 pub(crate) const DEVICES: usize = 1_000;
@@ -17,7 +17,7 @@ pub(crate) const TIMING_STEPS: usize = 64;
 pub(crate) const TIMING_SIGNALS: usize = 32;
 /// Switches with a hysteresis in one picture: each is compared with the others.
 pub(crate) const SWITCHES: usize = 32;
-/// Blocks of a diagram: a picture of more would be read by nobody.
+/// Blocks of a diagram: a picture of more would not be read.
 pub(crate) const BLOCKS: usize = 48;
 /// Arrows of a diagram: each is drawn around the others.
 pub(crate) const ARROWS: usize = 96;
@@ -27,8 +27,8 @@ pub(crate) const MARKS: usize = 16;
 pub(crate) const SPANS: usize = 32;
 /// Nodes of a plant. The largest have some thousands.
 pub(crate) const NODES_OF_PLANT: usize = 100_000;
-/// Bytes that are written once and stand for many: the texts of a run, of the elements of an array, of an object that several
-/// devices have. It is the size of the largest file.
+/// Bytes that are written once and count many times: the texts of a run, of the elements of an array, of an object that
+/// several devices have. It is the size of the largest file.
 pub(crate) const REPEATED_TEXT: usize = 64 << 20;
 
 /// What is left of the limits of a file.

@@ -1,7 +1,7 @@
 //! A specification in several files.
 //!
 //! `parts:` names files whose sections belong to the file that names them. They are joined as trees, before anything is read
-//! from them: a section reads the same whichever file it stands in, and every value keeps its place.
+//! from them: a section reads the same whichever file it is in, and every value keeps its place.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::source::{FileId, SourceMap, Span, Spanned};
 use crate::yaml::{self, Node, NodeKind};
 
 /// Joins the parts of a specification to it. `None` when one is missing or the tree is that of a part: without the whole,
-/// everything that stands elsewhere would be reported as missing. A tree that somebody keeps is copied first.
+/// everything that is elsewhere would be reported as missing. A tree that is kept is copied first.
 pub(crate) fn join(
     sources: &mut SourceMap,
     root: &mut Arc<Node>,
@@ -40,7 +40,8 @@ pub(crate) fn join(
     complete.then_some(())
 }
 
-/// The file that a text says it is a part of, from its lines alone: whoever looks at many files does not want to read them all.
+/// The file that a text says it is a part of, from its lines alone, because a caller with many files should not have to
+/// parse them all.
 pub fn part_of(text: &[u8]) -> Option<&str> {
     let begins_a_line = |at: &usize| at.checked_sub(1).is_none_or(|before| text[before] == b'\n');
     let at = memchr::memmem::find_iter(text, PART_OF).find(begins_a_line)?;
@@ -114,7 +115,7 @@ fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\', ':']).next().unwrap_or(path)
 }
 
-/// Puts the sections of a part behind those of the specification. What is no section was refused already.
+/// Puts the sections of a part after those of the specification. What is not a section was refused already.
 fn take(root: &mut Node, part: Node, diagnostics: &mut Diagnostics) {
     let (NodeKind::Map(sections), NodeKind::Map(taken)) = (&mut root.kind, part.kind) else { return };
     let is_section = |key: &str| PART.get(key).is_some_and(|key| !key.required);
@@ -126,7 +127,7 @@ fn take(root: &mut Node, part: Node, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// Puts what a section of a part holds behind what the section of the specification holds.
+/// Puts what a section of a part holds after what the section of the specification holds.
 fn extend(section: &mut Node, more: Node, diagnostics: &mut Diagnostics) {
     match (&mut section.kind, more.kind) {
         (NodeKind::Map(entries), NodeKind::Map(more)) => {

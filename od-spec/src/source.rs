@@ -121,7 +121,7 @@ pub struct SourceFile {
     encoding: Encoding,
     /// Where lines begin; only who wants to know a line pays for it.
     line_starts: OnceLock<Vec<u32>>,
-    /// How many characters stand before each block of bytes; for columns in long lines.
+    /// How many characters are before each block of bytes; for columns in long lines.
     characters: OnceLock<Vec<usize>>,
 }
 
@@ -287,7 +287,7 @@ fn characters(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| !matches!(byte, 0x80..=0xBF)).count()
 }
 
-/// Where lines begin behind a line break: a line feed, or a carriage return without one.
+/// Where lines begin after a line break: a line feed, or a carriage return without one.
 fn line_breaks(text: &str) -> impl Iterator<Item = usize> {
     let bytes = text.as_bytes();
     let ends_line = |at: &usize| bytes[*at] == b'\n' || bytes.get(at + 1) != Some(&b'\n');

@@ -84,7 +84,7 @@ def main():
     server.notify("textDocument/didOpen", {"textDocument": document})
     server.diagnostics(uri, 1)
     print(f"{args.spec.name}: {len(text.splitlines())} lines; opened in {(time.perf_counter() - started) * 1000:.1f} ms")
-    # A comment behind the middle line grows: everything is read anew, and nothing becomes wrong.
+    # A comment after the middle line grows: everything is read anew, and nothing becomes wrong.
     line = len(text.splitlines()) // 2
     column = len(text.splitlines()[line].encode("utf-16-le")) // 2
     took, before = [], server.computing()
@@ -120,7 +120,7 @@ def main():
 
 
 def at_places(server, uri, version, text):
-    """What is asked at a place: each time behind a keystroke, so that nothing is known from before."""
+    """What is asked at a place: each time after a keystroke, so that nothing is known from before."""
     lines = text.splitlines()
     places = [number for number, line in enumerate(lines) if "unit: " in line or "type: " in line][::40]
     start = {"line": 0, "character": 0}

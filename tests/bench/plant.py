@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measure how long the files of a plant take, beside python-canopen's writer of the same DCF files.
+"""Measure how long the files of a plant take, compared with python-canopen's writer of the same DCF files.
 
     plant.py [--odgen FILE] [--runs 5] [--machines 200 1667] [--no-peer]
 

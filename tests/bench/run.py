@@ -183,7 +183,7 @@ Tool = tuple[str, list[str], dict[str, str]]
 
 
 def lely_c(_: Path) -> list[Tool]:
-    """Cannot be installed from here (see README.md): measured where somebody has installed it."""
+    """Cannot be installed from here (see README.md): measured where it is installed."""
     program = shutil.which("dcf2c")
     return [(DCF2C, [program, "-o", "{out}", "{eds}", "device"], {})] if program else []
 

@@ -42,7 +42,7 @@ devices:
     device-type: 0x00000000
     features: [device type, identity, device name, heartbeat producer, emergency, sync consumer, store parameters, restore defaults, sdo server]
     eds: {{description: Measures how fast a compiler is, created: 2024-01-31 12:00, created-by: Example Works}}
-    about: A device that nobody builds, with as many objects as a measurement needs.
+    about: A device that is not built, with as many objects as a measurement needs.
 units:
   millivolt: {{symbol: mV, base: 1/1000 V}}
   decicelsius: {{symbol: °C, scale: 1/10}}
@@ -67,7 +67,7 @@ TYPES = """\
     bits:
       0: ok
       1: {{name: warning, about: A value is beyond its warning limit.}}
-      2: {{name: fault, about: "The channel was switched off; the error register tells why."}}
+      2: {{name: fault, about: "The channel was switched off; the error register shows why."}}
       3: {{name: limit active, about: The output is limited.}}
       4..6: {{name: step, about: Step of the sequence., values: {{0: stopped, 1: starting, 2: running, 3: stopping}}}}
       7: reserved

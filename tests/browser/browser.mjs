@@ -33,7 +33,7 @@ export const frames = (page, count) => page.evaluate(async (most) => {
   for (let drawn = 0; drawn < most; drawn++) await new Promise(requestAnimationFrame);
 }, count);
 
-// Tells what was found, and ends the program.
+// Reports what was found, and ends the program.
 export const end = () => {
   for (const failure of failures.slice(0, 60)) console.error(`FAILED ${failure}`);
   console.log(`${passed} passed, ${failures.length} failed`);

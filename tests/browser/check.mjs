@@ -37,7 +37,7 @@ const open = async (name, hash = "") => {
 const clean = (text) => text.replace(/\s+/g, " ").trim();
 const shownCards = (page) => page.$$eval("article.object", (cards) => cards.filter((card) => card.checkVisibility()).map((card) => card.id));
 const key = (index) => index.slice(2);
-// Run in a page: indices of objects on it that stand in a running text and lead nowhere. Headings, first cells of rows and pictures name what they show;
+// Run in a page: indices of objects on it that are in a running text and lead nowhere. Headings, first cells of rows and pictures name what they show;
 // a number that is an error code, too, is left plain.
 const unlinked = (codes) => {
   const named = "a, h1, h2, h3, h4, h5, h6, .object-head, td:first-child, button, code, svg, #ui_contents, .bar, option";
@@ -121,7 +121,7 @@ for (const device of dump.devices) {
       same(cell(say.stored), say.kept[entry.stored], `${place} stored`);
       if (entry.default === null) same(cell(say.default), "", `${place} default`);
       else if (typeof entry.default.raw === "number" && !entry.default.formula && Number.isSafeInteger(entry.default.raw)) {
-        // A raw number, or hexadecimal digits of it, or a physical value with the raw one behind it.
+        // A raw number, or hexadecimal digits of it, or a physical value with the raw one after it.
         const shown = cell(say.default), raw = entry.default.raw;
         const numbers = [shown, shown.split(/[ :]/)[0], shown.match(/\((-?\d+)\)$/)?.[1]].map(numberIn);
         // The name of a special value follows in brackets.
@@ -246,7 +246,7 @@ for (const device of dump.devices) {
     same(found[at].rows.map((row) => row.map(clean)), grid.rows.map((row) => row.cells.map(words)), `${anchor}: cells`);
   }
   const ids = await page.$$eval("[id]", (all) => all.map((one) => one.id));
-  same(ids.filter((id, at) => ids.indexOf(id) !== at), [], "index.html: ids stand once");
+  same(ids.filter((id, at) => ids.indexOf(id) !== at), [], "index.html: ids are there once");
   const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.getAttribute("href").slice(1))).filter((id) => id && !document.getElementById(id)));
   same(dead, [], "index.html: links");
   same(await page.evaluate(unlinked, dump.errors.map((error) => error.code)), [], "index.html: indices without a link");
@@ -256,7 +256,7 @@ for (const device of dump.devices) {
 for (const device of dump.devices) {
   const page = await open(`${device.key}.html`);
   const ids = await page.$$eval("[id]", (all) => all.map((one) => one.id));
-  same(ids.filter((id, at) => ids.indexOf(id) !== at), [], `${device.key}: ids stand once`);
+  same(ids.filter((id, at) => ids.indexOf(id) !== at), [], `${device.key}: ids are there once`);
   const dead = await page.$$eval("a[href^='#']", (links) => links.map((link) => decodeURIComponent(link.getAttribute("href").slice(1))).filter((id) => id && !document.getElementById(id)));
   same([...new Set(dead)], [], `${device.key}: links`);
   same(await page.evaluate(unlinked, dump.errors.map((error) => error.code)), [], `${device.key}: indices without a link`);
@@ -277,7 +277,7 @@ for (const name of ["index.html", ...dump.devices.map((device) => `${device.key}
   }).catch(() => false);
   const cards = await page.$$eval("article.object, .part", (all) => all.map((one) => one.id));
   const listed = await page.$$eval("#ui_contents a[href^='#']", (all) => all.map((one) => decodeURIComponent(one.hash.slice(1))));
-  same([...listed].sort(), [...cards].sort(), `${name}: each card stands once in the contents`);
+  same([...listed].sort(), [...cards].sort(), `${name}: each card is once in the contents`);
   const places = [0.2, 0.5, 0.9].map((part) => cards[Math.floor(part * (cards.length - 1))]);
   for (const id of places) {
     await page.evaluate((hash) => { location.hash = hash; }, id);
@@ -317,17 +317,17 @@ for (const name of ["index.html", ...dump.devices.map((device) => `${device.key}
   check(!await page.isVisible("#ui_contents"), `${name}: a choice does not close the contents`);
   check(await marked(there), `${name}: after a choice the contents do not mark #${there}`);
   const lands = (id) => { const { top } = document.getElementById(id).getBoundingClientRect(); return top >= -0.5 && top <= 8; };
-  check(await becomes(page, lands, there), `${name}: after a choice #${there} does not stand at the top`);
+  check(await becomes(page, lands, there), `${name}: after a choice #${there} is not at the top`);
   await page.close();
 }
 
-// ---------------------------------------------------------------- errata: told when asked for
+// ---------------------------------------------------------------- errata: shown when asked for
 for (const name of ["index.html", ...dump.devices.map((device) => `${device.key}.html`)]) {
   const page = await open(name);
   const marks = () => page.$$eval(".mark, .errata-of, .compared", (all) => all.filter((one) => one.checkVisibility()).length);
   const all = await page.$$eval(".mark, .errata-of, .compared", (all) => all.length);
   if (dump.errata.length === 0) {
-    check(all === 0 && await page.$("#ui_errata") === null, `${name}: a button for errata that nobody has`);
+    check(all === 0 && await page.$("#ui_errata") === null, `${name}: a button for errata of a device without errata`);
     await page.close();
     continue;
   }
@@ -495,7 +495,7 @@ const areStacked = () => !document.querySelector(".stack:not(.stacked)");
 let spent = 0;
 const printPage = promisify(execFile);
 for (const name of names) {
-  // The documented command, beside all else.
+  // The documented command, with everything else.
   const pdf = join(out, name.replace(".html", ".pdf"));
   const print = printPage(executablePath, ["--headless", "--no-sandbox", "--no-pdf-header-footer", `--print-to-pdf=${pdf}`, pathToFileURL(join(docs, name)).href]);
   print.catch(() => null);
@@ -572,7 +572,7 @@ for (const name of names) {
   }
   await tablet.close();
 
-  // On a phone the cells of a row stand below one another, each behind the title of its column, and only pictures are scrolled.
+  // On a phone the cells of a row are below one another, each after the title of its column, and only pictures are scrolled.
   const phone = await open(name);
   await phone.setViewportSize({ width: 390, height: 800 });
   await phone.waitForFunction(areStacked);

@@ -1,4 +1,4 @@
-// Opens documents whose texts try to command the browser, beside the same ones with plain texts, and uses them: they have the
+// Opens documents whose texts try to command the browser, next to the same ones with plain texts, and uses them: they have the
 // same elements and attributes, no script of a text runs, and each text is shown letter by letter where the plain one is.
 //
 //   node hostile.mjs DOCS CHROMIUM
@@ -24,7 +24,7 @@ const open = async (path) => {
   return page;
 };
 
-// What a page is made of: how often each element stands there with which attributes, what handlers and targets these name,
+// What a page is made of: how often each element is there with which attributes, what handlers and targets these name,
 // what its own scripts and styles say, and the texts.
 const parts = (page) => page.evaluate(() => {
   const elements = {}, handlers = [], targets = [];

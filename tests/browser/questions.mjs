@@ -13,9 +13,9 @@ const [docs, executablePath] = process.argv.slice(2, 4).map((path) => resolve(pa
 const isSample = process.argv[4] === "sample";
 const table = JSON.parse(readFileSync(join(dirname(fileURLToPath(import.meta.url)), "questions.json")))[basename(docs)] ?? {};
 const WIDTHS = [390, 800, 1400];
-// How far below the bar a target may stand.
+// How far below the bar a target may be.
 const NEAR = 8;
-// How much later than usual a page hears of what is laid out, in frames: longer than it waits for a target to stand still.
+// How much later than usual a page hears of what is laid out, in frames: longer than it waits for a target to stop moving.
 const LATE = 30;
 // What has its turn at a width.
 const turns = (list, width) => list.filter((_, at) => WIDTHS[at % WIDTHS.length] === width);
@@ -41,7 +41,7 @@ const open = async (address, width) => {
   return page;
 };
 
-// Where a target stands below what covers the top, once it has stood still.
+// Where a target is below what covers the top, once it has stopped moving.
 const gap = (page, id) => page.evaluate(async (name) => {
   const frame = () => new Promise((done) => requestAnimationFrame(done));
   let still = 0, last = NaN;
@@ -59,7 +59,7 @@ const gap = (page, id) => page.evaluate(async (name) => {
 const lands = async (page, id, text) => {
   const here = await gap(page, id);
   farthest = Math.max(farthest, Math.abs(here));
-  check(here >= -0.5 && here <= NEAR, `${text}: #${id} stands ${here} px below the bar`);
+  check(here >= -0.5 && here <= NEAR, `${text}: #${id} is ${here} px below the bar`);
 };
 
 // Until the page says that it has shown its answer to the last question.
@@ -73,7 +73,7 @@ const firstOf = (page) => page.evaluate(() => {
 let asked = 0, followed = 0;
 for (const [name, { questions, links }] of Object.entries(table)) {
   const address = pathToFileURL(join(docs, name)).href;
-  // The widths beside one another: most of the time a page stands still, and that is waited for.
+  // The widths at the same time: most of the time a page does not change, and that is waited for.
   await Promise.all(WIDTHS.map(async (width) => {
     const page = await open(address, width);
     const mine = turns(questions, width);
@@ -128,7 +128,7 @@ for (const [name, { questions, links }] of Object.entries(table)) {
   }));
 }
 
-// A page of which a busy machine makes something late, as it is on a fast one: the browser tells late of what it has laid out, so that tables fold after a link has
+// A page of which a busy machine makes something late, as it is on a fast one: the browser reports late what it has laid out, so that tables fold after a link has
 // landed; it goes late where the reader was; and what an address asks for is found only after its target was shown.
 const late = await browser.newContext();
 await late.addInitScript((delay) => {
@@ -145,7 +145,7 @@ await late.addInitScript((delay) => {
     const count = () => { document.quiet += 1; requestAnimationFrame(count); };
     count();
   });
-  // What is folded is told to the check.
+  // What is folded is passed to the check.
   new MutationObserver((changes) => { if (changes.some(({ target }) => target.matches(".folded"))) document.quiet = 0; })
     .observe(document, { subtree: true, attributeFilter: ["class"] });
 }, LATE);
@@ -159,7 +159,7 @@ await Promise.all(Object.entries(table).map(async ([name, { questions, links }])
     // Until nothing more is folded.
     await becomes(page, (delay) => document.quiet > 2 * delay, LATE);
     await lands(page, id, `${name}, laid out late`);
-    // Wherever the reader goes, what the link leads into stays laid out: else the rows behind the estimated end of a part cannot be reached.
+    // Wherever the reader goes, what the link leads into stays laid out: else the rows after the estimated end of a part cannot be reached.
     const isHeld = await page.evaluate(async (name) => {
       const frame = () => new Promise((done) => requestAnimationFrame(done)), { scrollHeight } = document.documentElement;
       scrollTo(0, scrollY > scrollHeight / 2 ? 0 : scrollHeight);
@@ -236,7 +236,7 @@ await Promise.all(Object.entries(table).map(async ([name, { questions }]) => {
   check(await state() === wanted, `${name}: forward, ${await state()}`);
   // Words are marked piece by piece, rows that do not fit are away, and all can be shown.
   check(await page.waitForSelector("mark", { state: "attached" }).catch(() => null), `${name}: nothing is marked`);
-  // On paper everything stands, also while the page is filtered.
+  // On paper everything is there, also while the page is filtered.
   const away = () => page.$$eval("article, .part, article tr", (all) => all.filter((one) => !one.checkVisibility()).length);
   await page.fill("#ui_search", question);
   await page.waitForFunction(() => [...document.querySelectorAll("article, .part, article tr")].some((one) => !one.checkVisibility())).catch(() => null);

@@ -45,7 +45,7 @@ def program(names: list[str], package: str) -> str:
 
 
 def install() -> Path:
-    """Node modules as the lock file names them; the scripts beside them, as Node looks for modules from there."""
+    """Node modules as the lock file names them; the scripts next to them, as Node looks for modules from there."""
     folder = CACHE / "npm"
     stamp = folder / "stamp"
     digest = hashlib.sha256(b"".join((HERE / name).read_bytes() for name in FILES)).hexdigest()
@@ -104,7 +104,7 @@ def main() -> int:
     if pages:
         work.append(("all pages", [node, str(folder / "validate.mjs"), *pages]))
     failed = 0
-    # A browser waits a lot: what is large begins first, beside it the next; it is told in the given order.
+    # A browser waits a lot: what is large begins first, at the same time the next; it is reported in the given order.
     with ThreadPoolExecutor(max_workers=AT_ONCE) as pool:
         started = {name: pool.submit(run, command) for name, command in sorted(work, key=lambda one: -size(one[1]))}
         for name, _ in work:

@@ -19,7 +19,7 @@ const open = async () => {
   await page.goto(pathToFileURL(file).href);
   // The page is read in idle time.
   await page.waitForFunction(() => performance.getEntriesByName("search-ready").length > 0, null, { timeout: 120000 });
-  // What reading the page left behind is taken away once, not while somebody types.
+  // What reading the page left is taken away once, not while a reader types.
   const session = await page.context().newCDPSession(page);
   await session.send("HeapProfiler.collectGarbage");
   return page;

@@ -1,4 +1,4 @@
-// Reads all HTML pages below directories as the HTML standard does: elements that are allowed where they stand, attributes, ids, names, tables.
+// Reads all HTML pages below directories as the HTML standard does: elements that are allowed where they are, attributes, ids, names, tables.
 //
 //   node validate.mjs DOCS...
 import { readFileSync, readdirSync } from "node:fs";

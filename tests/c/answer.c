@@ -1,5 +1,5 @@
 /*
- * The dictionary of one device behind requests. DEVICE_HEADER is its header, TABLE its table, SIZE
+ * The dictionary of one device that answers requests. DEVICE_HEADER is its header, TABLE its table, SIZE
  * the bytes of its image.
  */
 #include "answer.h"
@@ -73,7 +73,7 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
     uint16_t row = 0U;
     size_t at;
     call_count = 0U;
-    /* The fourth byte behind the operation says how the application is: unlocked, and whether it refuses. */
+    /* The fourth byte after the operation says how the application is: unlocked, and whether it refuses. */
     unlocked = (length >= 5U) && ((request[4] & 1U) != 0U);
     veto = ((length >= 5U) && ((request[4] & 2U) != 0U)) ? OD_ABORT_LOCAL_CONTROL : OD_OK;
     switch (operation) {

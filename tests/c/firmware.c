@@ -1,10 +1,10 @@
 /*
- * A Cortex-M that asks a dictionary what was asked on the host, and compares the answers. No library: what the compiler calls stands
- * here, too. It tells the host by semihosting how it went.
+ * A Cortex-M that asks a dictionary what was asked on the host, and compares the answers. No library: what the compiler calls is
+ * here, too. It reports the result to the host by semihosting.
  */
 #include "answer.h"
 
-/** Requests and their answers in turn, each behind its length in 4 bytes. */
+/** Requests and their answers in turn, each after its length in 4 bytes. */
 extern const uint8_t exchange[];
 extern const uint8_t exchange_end[];
 
@@ -175,5 +175,5 @@ void reset(void)
     end((count > 0U) ? 0x20026U : 0x20024U);
 }
 
-/** Stack and first instruction; everything else would be a fault, which the timeout tells. */
+/** Stack and first instruction; everything else would be a fault, which the timeout reports. */
 __attribute__((section(".vectors"), used)) static void *const vectors[] = {stack_top, (void *)reset};

@@ -1,4 +1,4 @@
-/* Requests on the standard input and answers on the standard output, each behind its length in 4 bytes. */
+/* Requests on the standard input and answers on the standard output, each after its length in 4 bytes. */
 #include <stdio.h>
 
 #include "answer.h"

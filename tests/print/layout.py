@@ -4,7 +4,7 @@
     layout.py HTML PDF
 
 Runs in the environment of WeasyPrint. Writes the PDF and, to standard output, one JSON object for each page: `height` and `bottom` (of the
-area of the text and of what stands in it), `blocks` (what stands on it, in order: `kind`, `id` of the section or object around it, `text`), `tables`
+area of the text and of what is in it), `blocks` (what is on it, in order: `kind`, `id` of the section or object around it, `text`), `tables`
 (heights of the rows of each on this page, and what is the same table on other pages), `sizes` (of the letters in points, those of pictures as
 they are scaled, with a sample of each), `short` (lines of text that end early), `overfull` (sections whose table is wider than the text).
 """
@@ -127,7 +127,7 @@ class Page:
         kind = type(box).__name__
         tag = getattr(box, "element_tag", "")
         if is_chapter(box) and not self.found["blocks"]:
-            # On the first page of a box its heading is not yet told.
+            # On the first page of a box its heading is not yet known.
             first = next((part for part in descendants(box) if getattr(part, "element_tag", "") in HEADINGS | {"p", "table", "li"}), None)
             self.found["chapter"] = first is not None and (first.element_tag in ("h1", "h2") or class_of(box) in ("imprint", "title"))
         if tag in ("section", "article") and id_of(box):

@@ -4,8 +4,8 @@
     run.py DOCS...
     run.py --install    only installs WeasyPrint
 
-DOCS are directories with `manual.html` and `context.json`. WeasyPrint makes `manual.pdf` beside them, pdftotext reads it, and all that the
-context says has to stand there: titles on the page that the contents name, captions beside what they name, cells, texts, warnings. What lies
+DOCS are directories with `manual.html` and `context.json`. WeasyPrint makes `manual.pdf` next to them, pdftotext reads it, and all that the
+context says has to be there: titles on the page that the contents name, captions next to what they name, cells, texts, warnings. What lies
 where on its pages (`layout.py`) has to be readable: no small print, no heading at the foot of a page, no warning overleaf, no page that is
 nearly empty. WeasyPrint is installed below target/print. Needs Python with venv, Pango, and pdftotext of poppler-utils. Exit code 0: the manuals are as they must be; 1:
 they are not; 3: a program is missing or pip could not install, nothing was checked.
@@ -90,7 +90,7 @@ class Manual:
             self.failures.append(otherwise)
 
     def has(self, text: str, what: str) -> None:
-        # What is in another language says so behind it.
+        # What is in another language says so after it.
         self.check(squeezed(text) in self.whole, f"{what} is missing: {text[:100]}")
 
     def run(self) -> None:
@@ -128,7 +128,7 @@ class Manual:
             self.check(not "".join(text[-1:]).endswith(":"), f"page {number} ends before what it announces: {text[-1:]}")
 
     def contents(self) -> None:
-        """Each title stands on the page that the contents name."""
+        """Each title is on the page that the contents name."""
         named = {}
         for lines in self.lines:
             for line in lines:
@@ -190,7 +190,7 @@ class Manual:
             self.check(is_apart or share >= FULL, f"page {number} is used to {share:.0%} only")
 
     def tables_in_two(self) -> None:
-        """Of a table that goes on overleaf, no single row of usual height stands alone."""
+        """Of a table that goes on overleaf, no single row of usual height is alone on a page."""
         parts: dict[int, list[tuple[int, dict]]] = {}
         for number, page in enumerate(self.layout, start=1):
             for table in page["tables"]:
@@ -215,7 +215,7 @@ class Manual:
             self.check(not page["short"], f"page {number} has lines that end early: {page['short'][:3]}")
 
     def warnings(self) -> None:
-        """The overview leads from each warning to the page that it stands on."""
+        """The overview leads from each warning to the page that it is on."""
         if not self.context["warnings"]:
             return
         heading = squeezed(self.context["words"]["warnings"] + self.context["words"]["warnings_intro"])
@@ -227,7 +227,7 @@ class Manual:
         for row in self.context["warnings"]["grids"][0]["rows"]:
             places, warning = (cell["text"] for cell in row["cells"])
             for place in places.splitlines():
-                # Behind the place stand leading dots and the page.
+                # After the place are leading dots and the page.
                 found = re.search(re.escape(squeezed(place)) + r"[.…]*(\d+)", overview)
                 self.check(found is not None, f"not in the overview of the warnings: {place}")
                 if found:
@@ -270,7 +270,7 @@ class Manual:
             )
 
     def figures(self, table: dict) -> None:
-        """A picture stands on one page with its caption, and all of its texts do."""
+        """A picture is on one page with its caption, and all of its texts do."""
         figure = table["figure"]
         caption = squeezed(
             f"{self.context['words']['figure']} {figure['number']} {figure['title']['text']}" if figure else table["title"]["text"]

@@ -80,7 +80,7 @@ class Entry:
         low = facts.get("min", facts["low"])
         high = facts.get("max", facts["high"])
         special = self.special
-        # A limit that a special value made is none of the others.
+        # A limit that a special value made is not one of the others.
         low = None if "min" not in facts and low in special else low
         high = None if "max" not in facts and high in special else high
         return low, high
@@ -271,7 +271,7 @@ def is_restricted(cob_id: int) -> bool:
 
 
 def of_cob_id(old: int, new: int) -> int | None:
-    """A COB-ID that bit 31 switches off: what is on does not change, but for being switched off."""
+    """A COB-ID that bit 31 switches off: what is on does not change, except for being switched off."""
     if new & OFF:
         return WRONG_VALUE if new & EXTENDED else None
     if not old & OFF:

@@ -133,7 +133,7 @@ class Trial:
             expected = shown(entry, target)
         operation = "read"
         if expected is None:
-            # Nobody says which value: it has the length of its type.
+            # It is not stated which value: it has the length of its type.
             operation = "read what has no default"
             right = isinstance(found, bytes) and (entry.is_text or len(found) == entry.size)
             expected = found if right else bytes(entry.size)
@@ -218,7 +218,7 @@ class Trial:
             return
         after = self.node.read(index, sub)
         if found is None and is_command(entry):
-            self.table.add("(read behind a command)", f"{entry.name} after {operation}", after, before)
+            self.table.add("(read after a command)", f"{entry.name} after {operation}", after, before)
         elif found is None:
             self.table.add("(read what was written)", f"{entry.name} after {operation}", after, data)
             if data != before:

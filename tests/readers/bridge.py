@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reach nodes through `odgen-bridge`: on a bus inside this program, and on another one behind a process.
+"""Reach nodes through `odgen-bridge`: on a bus inside this program, and on another one reached through a process.
 
     bridge.py --odgen target/debug/odgen [--self-test]
 
@@ -172,7 +172,7 @@ class Commands:
         return done.returncode, done.stdout + done.stderr
 
     def specify(self, trial: Trial, port: int, eds: Path) -> None:
-        """A specification of a node that no file describes, and its EDS beside the one that the node has."""
+        """A specification of a node that no file describes, and its EDS next to the one that the node has."""
         scan = ["node", "scan", "--write-spec", "first.od.yaml", "--node", str(NODE), "--range", "2000h..2010h"]
         link = ["--slcan", f"tcp:127.0.0.1:{port}", "--timeout", "5000"]
         for command in ([*scan, *link], ["check", "first.od.yaml"], ["build", "first.od.yaml", "--out", "first"]):
@@ -188,7 +188,7 @@ class Commands:
                 trial.that(f"length of {entry.name}", len(found), len(entry))
 
     def look(self, trial: Trial, port: int, *more: str) -> None:
-        """What everybody does with a node."""
+        """What every user does with a node."""
         for name, arguments, expected in (
             ("scan", (), "can be pump (Pump) of pump.od.yaml"),
             ("read", ("flow", "place"), '2001h place = "at the window"'),
@@ -240,7 +240,7 @@ def port_of(one: subprocess.Popen) -> int:
 
 
 def check_process(trial: Trial, commands: Commands, odgen: str, spec: Path, eds: Path) -> None:
-    """Virtual nodes behind an adapter that the bridge reaches by python-can; then the adapter is unplugged."""
+    """Virtual nodes on an adapter that the bridge reaches by python-can; then the adapter is unplugged."""
     served = Served(odgen, spec, "pump")
     behind = ("slcan", f"socket://{served.address}", "--port", "0", "--option", "sleep_after_open=0")
     with process(*behind, "--bitrate", "125000") as one:
@@ -336,7 +336,7 @@ def check_lines(trial: Trial) -> None:
         other.send(can.Message(arbitration_id=1, is_error_frame=True))
         trial.that("from the first host", (host.ask(b"t10010A"), second.hear()[:7]), (b"z\r", b"t10010A"))
         trial.that("to one that listens", listener.hear(), b"t10010A\r")
-        # One that goes away leaves half a line, and one that is cut off leaves frames behind.
+        # One that goes away leaves half a line, and one that is cut off leaves frames.
         second.socket.sendall(b"t60")
         second.close()
         listener.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, b"\1\0\0\0\0\0\0\0")
@@ -386,7 +386,7 @@ class Wired(VirtualBus):
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         if msg.arbitration_id == 0x666:
-            raise can.CanOperationError("nobody acknowledges")
+            raise can.CanOperationError("no node acknowledges")
         super().send(msg, timeout)
 
 
@@ -399,7 +399,7 @@ def with_wires() -> Iterator[None]:
 
 
 def check_bit_rates(trial: Trial) -> None:
-    """An adapter joins the bus with the bit rate that somebody has set, and not before."""
+    """An adapter joins the bus with the bit rate that a user has set, and not before."""
     with with_wires(), bridge("wires", "wired") as (port, ended, _):
         host, second = Host(port), Host(port)
         trial.that("no bit rate", host.ask(b"O"), b"\a")
@@ -466,7 +466,7 @@ def main() -> int:
         eds, commands = folder / "made" / "eds" / "pump.eds", Commands(odgen, folder)
         check_command_line(trial)
         check_process(trial, commands, odgen, spec, eds)
-        # What it says to its user would stand among what this program says.
+        # What it says to its user would be among what this program says.
         with mock.patch.object(odgen_bridge, "say"):
             check_lines(trial)
             check_bit_rates(trial)

@@ -86,7 +86,7 @@ def read(job: Job) -> Reading:
 
 
 def sections_with_subs(path: Path) -> set[int]:
-    """The crate gives 3000 and 3000sub0 the same address, so the file must tell which it was."""
+    """The crate gives 3000 and 3000sub0 the same address, so the file must say which it was."""
     return {int(found, 16) for found in re.findall(r"(?m)^\[(\w{4})sub\w+\]", path.read_text(encoding="ascii"))}
 
 

@@ -34,7 +34,7 @@ LEGAL_FORMS = {
     "ag", "co", "company", "corp", "corporation", "electric", "electronic", "electronics", "gmbh", "inc", "kg", "limited", "ltd",
     "technologies", "technology",
 }
-# What stands in examples where a company's name belongs.
+# What is in examples where a company's name belongs.
 PLACEHOLDERS = {"demo", "example", "manufacturer", "test", "unknown", "vendor"}
 # Facts on which there is no vote, so that a device of the dump may depart from the library in them.
 NOT_VOTED = {"default", "min", "max", "unit"}
@@ -54,7 +54,7 @@ def text_of(path):
 
 
 def sections_of(text):
-    """Sections by lower-case name, with lower-case keys. Of a section or key that stands twice, the first counts."""
+    """Sections by lower-case name, with lower-case keys. Of a section or key that is written twice, the first counts."""
     sections = {}
     section = None
     for line in text.splitlines():

@@ -50,7 +50,7 @@ class Reading:
 class Job(NamedTuple):
     path: Path
     node: int
-    reader: Path | None  # the installed tool, where a script needs to be told
+    reader: Path | None  # the installed tool, where a script needs its path
 
     @property
     def installed(self) -> Path:

@@ -232,7 +232,7 @@ def check_spec(check: Check, odgen: Path, spec: Path, device: Device) -> int:
 
 
 def check_other(check: Check, where: str, database: object, other: object) -> None:
-    """canmatrix beside cantools."""
+    """canmatrix in addition to cantools."""
     check.that(len(database.messages) == len(other.frames), f"{where}: {len(database.messages)} messages, canmatrix has {len(other.frames)}")
     for message in database.messages:
         frame = other.frame_by_name(message.name)

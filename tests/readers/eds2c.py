@@ -39,7 +39,7 @@ TPDO, RPDO = 0x04, 0x08
 
 
 class Fact(NamedTuple):
-    """A line of list_entries.c: of an object, `sub` is None."""
+    """A line of list_entries.c: an object has no `sub`."""
 
     index: int
     sub: int | None
@@ -82,7 +82,7 @@ def is_element_that_differs(theirs: Fact, ours: Fact, around: Around) -> bool:
 DIFFERENCES = {
     "sub-index 0 is the number of entries to eds2c, whatever value the EDS gives it: that of a mapping is how many are mapped": is_number_of_entries,
     "an entry that can be mapped is mapped both ways by eds2c: `rww` is for RPDOs alone, `rwr` for TPDOs": is_mapped_both_ways,
-    "1003h has memory in the dictionary of eds2c, and a count that nobody can write: the stack has the history itself": is_history,
+    "1003h has memory in the dictionary of eds2c, and a count that cannot be written: the stack has the history itself": is_history,
     "elements of an ARRAY get the attributes of the first one from eds2c: where they differ, odgen makes a RECORD": is_element_that_differs,
 }
 
@@ -105,7 +105,7 @@ def main() -> int:
             faults += compare_entries(device["key"], arguments.eds_dir / f"{device['key']}.eds", arguments.odgen, used)
     for reason in DIFFERENCES:
         print(f"  {used[reason]:>4}  {reason}")
-        # A reason that nothing needs is none.
+        # A reason that nothing needs is not a reason.
         faults += used[reason] == 0
     return 1 if faults else 0
 

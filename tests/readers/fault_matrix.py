@@ -207,7 +207,7 @@ class Observed:
     has_begun: bool
     nodes: dict[int, State]
     after_reset: State
-    """What the node has after a restart, where it was told to store."""
+    """What the node has after a restart, where it was commanded to store."""
     files: dict[str, bytes]
     loads: bool
     again: tuple[int, dict[int, State]] | None
@@ -547,7 +547,7 @@ def work(baseline: Baseline, names: list[tuple[str, str]]) -> list[Cell]:
 
 
 def run(baseline: Baseline, names: list[tuple[str, str]]) -> list[Cell]:
-    # Those in which somebody waits are spread over all machines.
+    # Those in which a command waits are spread over all machines.
     order = sorted(names, key=lambda name: name[1] not in ("node dead", "slow", "request lost", "answer lost"))
     with ProcessPoolExecutor(WORKERS, multiprocessing.get_context("spawn")) as pool:
         some = pool.map(work, [baseline] * WORKERS, [order[at::WORKERS] for at in range(WORKERS)])

@@ -169,7 +169,7 @@ class Doubled(Fault):
 
 
 class Malformed(Fault):
-    """Every answer about the entry of a request is none."""
+    """Every answer about the entry of a request is not an answer."""
 
     def answer(self, line: bytes) -> Iterable[bytes]:
         if about(line) != self.at.entry:

@@ -154,7 +154,7 @@ def compare(case: Case, odgen: list[str], folder: Path, name: str) -> Result:
     found = records(ours)
     expected = [corrected(slave, record, result.counts) for record in slave.sdo]
     beyond = [record for record in found if f"{struct.unpack_from('<H', record)[0]:04X}" in case.beyond]
-    result.counts["with values that dcfgen cannot be told"] = len(beyond)
+    result.counts["with values that dcfgen cannot take"] = len(beyond)
     if len(beyond) != len(case.beyond):
         result.problems.append(f"{len(beyond)} records are beyond dcfgen, expected {len(case.beyond)}")
     if result.counts[TOO_LONG] != case.odd:
@@ -162,7 +162,7 @@ def compare(case: Case, odgen: list[str], folder: Path, name: str) -> Result:
     rest = Counter(found) - Counter(beyond)
     result.problems += [f"record {record.hex(' ')} is ours alone" for record in rest - Counter(expected)]
     result.problems += [f"record {record.hex(' ')} is missing" for record in Counter(expected) - rest]
-    # Within one PDO the order is the same but for the parameters, which may come before or after the mapping is emptied.
+    # Within one PDO the order is the same except for the parameters, which may come before or after the mapping is emptied.
     for index in (0x1400, 0x1600, 0x1800):
         of_index = lambda record: struct.unpack_from("<H", record)[0] == index  # noqa: E731
         if list(filter(of_index, found)) != list(filter(of_index, expected)):
@@ -204,7 +204,7 @@ def records(concise: bytes) -> list[bytes]:
         end = at + 7 + struct.unpack_from("<HBL", concise, at)[2]
         found.append(concise[at:end])
         at = end
-    assert at == len(concise), "something stands behind the last record"
+    assert at == len(concise), "something follows the last record"
     return found
 
 

@@ -3,7 +3,7 @@
 
     lossy_bus.py --odgen target/debug/odgen [--runs 50] [--seed 1]
 
-Between `odgen node` and `odgen serve` stands a relay that does something to some of the frames, the same with the same seed. A backup either is
+Between `odgen node` and `odgen serve` is a relay that does something to some of the frames, the same with the same seed. A backup either is
 what it is over a good bus, or it fails with exit code 1, says why, and leaves no file. A restore either gives back every value, or
 it fails with exit code 1 and says why; and no entry has a value then that is neither the old one nor the one of the file. What the node has is read
 by python-canopen, past the relay. Exit code 1 when anything else happens.
@@ -91,7 +91,7 @@ class Fate:
 
 
 class Relay:
-    """Stands before an adapter, for one host after the other."""
+    """Is in front of an adapter, for one host after the other."""
 
     def __init__(self, port: int) -> None:
         self.behind = port
@@ -152,7 +152,7 @@ class Trial:
         self.failures: list[str] = []
 
     def hush(self) -> None:
-        """Forgets what others talked about. They have gone, so that nothing of it comes after the answer to a question that nobody else asks."""
+        """Forgets what others talked about. They have gone, so that nothing of it comes after the answer to a question that nothing else asks."""
         self.asked += 1
         question = b"\x40\xff\x5f" + bytes([self.asked % 256, 0, 0, 0, 0])
         # What a transfer that was given up would take for its own.
@@ -220,7 +220,7 @@ class Trial:
         if finished is False:
             strange = {id: data for id, data in has.items() if data not in (OLD[id], NEW[id])}
             if strange:
-                self.failures.append(f"{name}: values that nobody wrote: {strange}")
+                self.failures.append(f"{name}: values that were not written: {strange}")
         self.give(OLD)
         if self.has() != OLD:
             self.failures.append(f"{name}: the node does not take values any more")

@@ -3,7 +3,7 @@
 
     lsp_client.py --odgen target/debug/odgen od-spec/devices/pitch-control-system.od.yaml ...
 
-Each specification is opened as it is, broken in the middle, and put right again. What is said about it is compared with
+Each specification is opened as it is, broken in the middle, and fixed again. What is said about it is compared with
 `odgen check --notes`; every request that the server says it answers is asked at places all over the text, and what comes
 back has to have the types of the protocol, with ranges that lie in the text. Exit code 1 when anything differs.
 """
@@ -143,7 +143,7 @@ async def session(client: Client, server: lsp.ServerCapabilities, odgen: Path, s
     await ask(client, server, uri, broken, f"{spec.name}, broken", check)
     change(client, uri, 3, text)
     said = await client.diagnostics(uri, 3)
-    check.that(sorted((str(one.code), one.range.start.line + 1) for one in said) == expected, f"{spec.name}: put right")
+    check.that(sorted((str(one.code), one.range.start.line + 1) for one in said) == expected, f"{spec.name}: fixed")
     client.text_document_did_close(lsp.DidCloseTextDocumentParams(lsp.TextDocumentIdentifier(uri=uri)))
 
 

@@ -21,13 +21,13 @@ from pathlib import Path
 from run import HERE, ROOT
 
 EVERY = 7
-# Of those, a sample that has faults of every kind: each so many, beginning so far behind the first, and what there is once only.
+# Of those, a sample that has faults of every kind: each so many, beginning so far after the first, and what there is once only.
 SAMPLE, FIRST = 6, 4
 ONCE = re.compile(r"-(as-it-is|cp1252|utf-16)\.eds$")
 
 
 class File:
-    """A file as blocks of lines: what stands before the first section, then the sections with comments above."""
+    """A file as blocks of lines: what is before the first section, then the sections with comments above."""
 
     def __init__(self, text: str) -> None:
         self.text = text.replace("\r\n", "\n")

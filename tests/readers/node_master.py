@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Be a node of python-canopen for `odgen node`, behind an adapter with SLCAN.
+"""Be a node of python-canopen for `odgen node`, on an adapter with SLCAN.
 
     node_master.py --odgen target/debug/odgen --spec od-spec/devices/pitch-control-system.od.yaml --device pmc --eds generated/eds/pmc.eds
 
-The node has the dictionary of the EDS, and no rules. odgen reads every entry; writes a backup of what it has; tells apart what was changed
+The node has the dictionary of the EDS, and no rules. odgen reads every entry; writes a backup of what it has; distinguishes what was changed
 meanwhile, entry by entry; gives it back in its own order; finds it in a scan, and commands its states. Exit code 1 when anything differs.
 """
 
@@ -34,7 +34,7 @@ Id = tuple[int, int]
 
 
 class Adapter(canopen.Network):
-    """A node behind an adapter that takes one host after the other."""
+    """A node on an adapter that takes one host after the other."""
 
     def __init__(self, eds: Path) -> None:
         super().__init__()

@@ -57,7 +57,7 @@ def check_device(options: argparse.Namespace, device: dict, types: list[dict]) -
             target = found.get((entry.target.index, entry.target.sub))
             expected = shown(entry, target) if isinstance(target, bytes) else b"a target"
         if expected is None:
-            # Nobody says which value: it has the length of its type.
+            # It is not stated which value: it has the length of its type.
             expected = has if isinstance(has, bytes) and len(has) == entry.size else bytes(entry.size)
         if has != expected:
             failures.append(f"{entry.name}: found {has!r}, expected {expected!r}")

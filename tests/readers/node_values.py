@@ -40,13 +40,13 @@ SHOWN = 40
 ACCESS_TYPES = {"ro", "wo", "rw", "rwr", "rww", "const"}
 POWERS = {1 << bits for bits in (8, 16, 32, 64)}
 MAPPING = re.compile("1[6-7AB][0-9A-F]{2}sub0")
-# What files of many makers do, and odgen tells of when it checks them.
+# What files of many makers do, and odgen reports when it checks them.
 OF_FILES = (
     Limit("DeviceInfo has no such number", "the objects have it", lambda c: c.section == "DeviceInfo" and c.read is None),
     Limit("DeviceInfo contradicts the objects", "the objects are what a node has", lambda c: c.section == "DeviceInfo"),
     Limit("no name", "odgen names the index", lambda c: c.key == "ParameterName" and c.read == ""),
     Limit(
-        "a name with blanks at its end or beyond ASCII", "an EDS is read in the code page that its texts speak for",
+        "a name with spaces at its end or beyond ASCII", "an EDS is read in the code page that its texts speak for",
         lambda c: c.key == "ParameterName" and isinstance(c.read, str) and (c.read.strip() != c.read or not c.read.isascii()),
     ),
     Limit(
@@ -57,18 +57,18 @@ OF_FILES = (
     Limit("sub-index 0 has no value", "it follows from the entries", lambda c: c.section.endswith("sub0") and c.key == "DefaultValue" and c.read is None),
     Limit("the count of a compact mapping is a value of the node", "CIA 306 has a constant", lambda c: MAPPING.fullmatch(c.section) is not None),
     Limit("a word for an access that no standard has", "odgen has a table of them", lambda c: c.key == "AccessType" and c.read not in ACCESS_TYPES),
-    Limit("a value that is none of its type", "left out, which odgen tells", lambda c: c.key == "DefaultValue" and (is_no_value(c) or is_beyond(c))),
+    Limit("a value that its type does not have", "left out, which odgen reports", lambda c: c.key == "DefaultValue" and (is_no_value(c) or is_beyond(c))),
     Limit(
         "a signed number in its bit pattern", "CIA 306 allows both forms",
         lambda c: c.key == "DefaultValue" and isinstance(c.read, int) and isinstance(c.expected, int) and c.read - c.expected in POWERS,
     ),
-    Limit("limits that no value of the type can have", "left out, which odgen tells", lambda c: c.key in ("LowLimit", "HighLimit") and is_beyond(c)),
+    Limit("limits that no value of the type can have", "left out, which odgen reports", lambda c: c.key in ("LowLimit", "HighLimit") and is_beyond(c)),
     Limit(
-        "a low limit above the high limit", "both are left out, which odgen tells",
+        "a low limit above the high limit", "both are left out, which odgen reports",
         lambda c: c.section == "2020" and (c.key, c.read) in (("LowLimit", 3), ("HighLimit", 1)),
     ),
-    Limit("a section of sub-index 255", "left out, which odgen tells", lambda c: c.section.endswith("subFF")),
-    Limit("the errors of 1003h are none at start", "CiA 301 7.5.2.4", lambda c: c.section == "1003sub0"),
+    Limit("a section of sub-index 255", "left out, which odgen reports", lambda c: c.section.endswith("subFF")),
+    Limit("the errors of 1003h are empty at start", "CiA 301 7.5.2.4", lambda c: c.section == "1003sub0"),
 )
 TOOL = Tool("python-canopen", lambda _: "", read, LIMITS + OF_FILES)
 COMMANDS = ("dump", "serve", "dbc", "decode")
@@ -169,13 +169,13 @@ def check_dump(row: Row, odgen: Path, path: Path, node: int, dictionary: canopen
 
 def why_served_otherwise(entry: ODVariable, wanted: Any) -> str | None:
     if entry.index == 0x1003:
-        return "the errors of 1003h are none at start"
+        return "the errors of 1003h are empty at start"
     if entry.index in (0x1010, 0x1011):
         return "1010h and 1011h say what the node can do (CiA 301 7.5.2.13)"
     if entry.data_type in TIMES:
         return "CIA 306 has no notation for TIME_OF_DAY and TIME_DIFFERENCE"
     if wanted in ("", b""):
-        return "an empty ParameterValue is none"
+        return "an empty ParameterValue is not a value"
     return None
 
 
@@ -262,7 +262,7 @@ def read_text(text: str, path: Path, node: int | None) -> canopen.ObjectDictiona
 
 
 def check_file(rows: dict[str, Row], odgen: Path, path: Path, asked: Path) -> None:
-    """What python-canopen reads of a file beside what the commands make of the file that they are asked for."""
+    """What python-canopen reads of a file compared with what the commands make of the file that they are asked for."""
     try:
         text = unfolded(path.read_text())
         node = read_text(text, path, None).node_id or NODE

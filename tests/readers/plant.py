@@ -2,7 +2,7 @@
 
     plant.py --odgen FILE
 
-The values that python-canopen finds are compared with `values.csv`, and what it finds more is none that a level sets. The
+The values that python-canopen finds are compared with `values.csv`, and what else it finds is not set by a level. The
 cells of the workbook are those of `values.csv`, and none of them is a date.
 """
 

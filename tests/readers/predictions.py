@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Compare what `odgen check` foretells of five readers with what they do.
+"""Compare what `odgen check` predicts for five readers with what they do.
 
     predictions.py [FOLDER] [--odgen PROGRAM] [--out CACHE] [--sample]
 
-A file is foretold to be refused by a reader if a finding about it, also a note, names the reader. Every reader
+A file is predicted to be refused by a reader if a finding about it, also a note, names the reader. Every reader
 has to agree on at least 97 of 100 files of FOLDER, by default those that mutate.py makes. With `--sample`, it has to agree on all of a
 sample of these, and to refuse some of them, but not all.
 Exit code 0: they do; 1: one does not; 3: a reader could not be installed and was not asked.
@@ -51,12 +51,12 @@ def wrong(reader: str, said: Verdicts, foretold: Predictions) -> list[str]:
         if codes and reason is None:
             lines.append(f"  {file}: accepted, though {', '.join(codes)} name it")
         if not codes and reason is not None:
-            lines.append(f"  {file}: refused, which no finding foretold: {reason}")
+            lines.append(f"  {file}: refused, which no finding predicted: {reason}")
     return lines
 
 
 def compare(said: Verdicts, foretold: Predictions, names: list[str], enough: int) -> list[str]:
-    """Prints a table; the readers that do what was foretold on fewer than so many of 100 files, or say the same of all of a sample."""
+    """Prints a table; the readers that do what was predicted on fewer than so many of 100 files, or say the same of all of a sample."""
     files, short = len(said), []
     print(f"{'reader':<16}{'files':>6}{'refused':>9}{'agreed':>8}")
     for name in names:

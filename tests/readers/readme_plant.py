@@ -2,7 +2,7 @@
 
     readme_plant.py --odgen FILE [--readme FILE]
 
-The files and the commands are the README's own: what stands between its marks. A command that fails, or says anything on
+The files and the commands are the README's own: what is between its marks. A command that fails, or says anything on
 standard error, is a complaint; so is what dcfchk says of a DCF.
 """
 
@@ -21,7 +21,7 @@ from lely_dcfchk import dcfchk
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 FILES = {"spec": "valve.od.yaml", "parameters": "valve-5.yaml", "plant": "plant.yaml"}
-"""What stands between marks of the README, and the name that its text gives it."""
+"""What is between marks of the README, and the name that its text gives it."""
 COMMANDS = ("node-commands", "plant-commands")
 
 
@@ -71,7 +71,7 @@ def fenced(block: str) -> str:
 
 
 def lines(block: str) -> list[str]:
-    """The commands, as a person copies them: the remark behind each is one for the shell, too."""
+    """The commands, as a person copies them: the remark after each is one for the shell, too."""
     return [line.strip() for line in block.splitlines() if line.strip()]
 
 

@@ -2,7 +2,7 @@
 
     readme_turbine.py --odgen FILE [--readme FILE] [--mend]
 
-The commands, the program for python-canopen and the screens are the README's own: what stands between its marks. Only the port is another
+The commands, the program for python-canopen and the screens are the README's own: what is between its marks. Only the port is another
 one, that `odgen serve` finds free, and the program has more patience with a busy machine. With `--mend` the README gets the screens of this run, to be read before they are kept.
 """
 

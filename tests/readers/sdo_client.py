@@ -3,7 +3,7 @@
 
     sdo_client.py --server target/debug/sdo-server --eds-dir generated/eds --dump generated/pitch-control-system.json
 
-The server holds the Rust dictionary behind the SDO server of firmware-glue; the client knows only the EDS. Every entry of
+The server holds the Rust dictionary with the SDO server of firmware-glue; the client knows only the EDS. Every entry of
 the EDS is read, in one frame, in segments and in blocks, and compared with the dump; every writable one gets its own value
 back, each way; what must be refused is refused with the expected abort code. Exit code 1 when anything differs.
 """

@@ -53,16 +53,16 @@ def check_node(check: Check, port: str, eds: str) -> None:
 
 
 def be_rude(check: Check, port: str) -> None:
-    """Leaves half a line, an open channel, and frames that nobody reads."""
+    """Leaves half a line, an open channel, and frames that are not read."""
     with serial.Serial(port, 115_200) as rude:
         rude.write(b"C\rS6\rO\rt6058400018000000")
         rude.flush()
-        # Its answers are three bytes, and behind them come heartbeats.
+        # Its answers are three bytes, and after them come heartbeats.
         check.that("frames for a host", eventually(lambda: rude.in_waiting > 30, True), True)
 
 
 def check_plain(check: Check, port: str) -> None:
-    """A plain host: as soon as the one before is seen to have gone, its adapter was just switched on: half a line of nobody, a closed channel,
+    """A plain host: as soon as the one before is seen to have gone, its adapter was just switched on: half a line of an unknown host, a closed channel,
     and no frame for others. What it says to each command then."""
     fresh, end = b"\r\x07", time.monotonic() + PATIENCE
     said = b""

@@ -40,7 +40,7 @@ SAMPLE = 6  # with `--sample`, one of so many groups of constants and of faults
 # Where an item of a file ends; a list of constants is one.
 LIST = "VAR_GLOBAL CONSTANT\n"
 END = re.compile(r"(?<=^END_FUNCTION\n)|(?<=^END_FUNCTION_BLOCK\n)|(?<=^END_TYPE\n)", re.MULTILINE)
-# Faults by device: the file, what stands in it, and what is put there.
+# Faults by device: the file, what is in it, and what is put there.
 FAULTS: dict[str, list[tuple[str, str, str]]] = {
     "valve": [
         ("valve-constants.st", "SET_PRESSURE_INDEX : UINT := 16#2000", "SET_PRESSURE_INDEX : UINT := 16#2002"),
@@ -112,7 +112,7 @@ def items_of(text: str) -> list[str]:
         return [f"{block}{group}\nEND_VAR\n" for group in inner.removesuffix("END_VAR\n").split("\n\n")]
     items = [item for item in END.split(text) if item.strip()]
     assert "".join(items) == text
-    # What is behind the last item of a file of nothing is its head.
+    # What is after the last item of a file of nothing is its head.
     return [item for item in items if re.search(r"^[A-Z]", item, re.MULTILINE)]
 
 
@@ -238,7 +238,7 @@ def check_spec(check: Check, odgen: Path, spec: Path, device: Device, parsed: Pa
         run(*base, Path(folder, "any"), "--lang", "en")
         english, german, any_node = (texts_in(Path(folder, name), device.key) for name in ("en", "de", "any"))
     check_texts(check, device, english, NODE, parsed)
-    # A list as it stands, where that does not take minutes.
+    # A list as it is, where that does not take minutes.
     whole = english[f"{device.key}-constants.st"]
     if len(whole) < 30_000:
         check.that(parse(whole)[0] is None, f"{device.key}: blark refuses the list as a whole")

@@ -1,4 +1,4 @@
-"""What functions and function blocks of Structured Text do, beside what the JSON dump says that they should."""
+"""What functions and function blocks of Structured Text do, compared with what the JSON dump says that they should."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def check_quantity(check: Check, where: str, files: Files, quantity: Quantity, t
         return raw if quantity.low <= raw <= quantity.high and raw not in quantity.special else None
 
     def nearest(value: float) -> set[int | None]:
-        """What a value may become: where it is a hair beside the middle of two steps, either; but not where LREAL has all numbers on the way."""
+        """What a value may become: where it is very near the middle of two steps, either; but not where LREAL has all numbers on the way."""
         steps = (Fraction(value) - quantity.offset) / quantity.scale
         parts = [Fraction(value).denominator, abs(value), *(abs(part) for one in (quantity.scale, quantity.offset) for part in (one.numerator, one.denominator))]
         room = 0 if max(parts) < 1 << 16 else (abs(steps) + abs(quantity.offset / quantity.scale) + 1) * Fraction(1, 2**50)
@@ -73,7 +73,7 @@ def check_quantity(check: Check, where: str, files: Files, quantity: Quantity, t
         for raw in (quantity.low, quantity.high, 0, *quantity.special):
             for part in (-1, -0.75, -0.5, -0.49, 0.49, 0.5, 0.75, 1):
                 value = float(quantity.value(raw) + Fraction(part) * quantity.scale)
-                back(value, nearest(value), "beside a step")
+                back(value, nearest(value), "next to a step")
         span = quantity.value(quantity.high) - quantity.value(quantity.low)
         for _ in range(6):
             value = float(quantity.value(quantity.low) + span * Fraction(chance.random() * 1.2 - 0.1))
@@ -266,7 +266,7 @@ def check_out(check: Check, where: str, device: Device, files: Files, bases: dic
 
     expected = {member.name.upper(): default(field) for member, field in zip(members, fields)}
     check.that(instance["RAW"][1] == expected, f"{where}: {block} begins with {instance['RAW'][1]}, not {expected}")
-    # What nobody sets goes out as the default.
+    # What is not set goes out as the default.
     controller.cycle(block, instance)
     check.that(instance["RAW"][1] == expected, f"{where}: {block} sends {instance['RAW'][1]} when nothing is set, not {expected}")
     for _ in range(60):

@@ -1,4 +1,4 @@
-"""Constants and enums of Structured Text beside the JSON dump: every one that has to be there, and no other."""
+"""Constants and enums of Structured Text compared with the JSON dump: every one that has to be there, and no other."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Constants:
         self.check.that(found == (of_type, value), f"{self.where}: {what}: {name} is {found}, not {(of_type, value)}")
 
     def find(self, words: str, number: str, of_type: str, value: Any, what: str) -> None:
-        """A constant is there whose name has these words; with a number behind it, where two would be one."""
+        """A constant is there whose name has these words; with a number after it, where two would be one."""
         wanted = letters(words)
         for name, found in self.left.items():
             have = letters(name)

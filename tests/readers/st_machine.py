@@ -270,7 +270,7 @@ class Controller:
         write(fits(wanted, value))
 
     def evaluate(self, node: Any, frame: dict[str, tuple[str, Any]]) -> tuple[str | None, Any]:
-        """Type and value; a literal has no type of its own but for BOOL, and LREAL with a decimal point."""
+        """Type and value; a literal has no type of its own except BOOL, and LREAL with a decimal point."""
         if isinstance(node, tree.ParenthesizedExpression):
             return self.evaluate(node.expr, frame)
         if isinstance(node, tree.Boolean):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Read the traces that python-can writes: `odgen decode` tells the same of a `.trc`, an `.asc` and a log of `candump`.
+"""Read the traces that python-can writes: `odgen decode` reports the same of a `.trc`, an `.asc` and a log of `candump`.
 
     traces.py --odgen target/debug/odgen
 
@@ -20,7 +20,7 @@ from pathlib import Path
 import can
 
 SPEC = Path("od-spec/devices/pitch-control-system.od.yaml")
-# What a line tells of a frame, behind what the trace says of time and bus.
+# What a line reports of a frame, after what the trace says of time and bus.
 TOLD = re.compile(r"(?:^|  )([0-9A-F]{3}h  .*|[0-9A-F]{8}h  .*|error frame: .*)$")
 
 

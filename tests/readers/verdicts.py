@@ -9,7 +9,7 @@ first line of its reason. A file is refused
 * by python-canopen, when `canopen.import_od(file, node_id=5)` raises;
 * by dcfchk, when `dcfchk -n 5 FILE` ends with another code than 0: its lint found a fault, or its reader raised.
   What it only warns of, such as a vendor-ID that differs from the identity object's, is no refusal;
-* by eds-utils, when `read_eds(file)` raises; what it lists as put right by itself is no refusal;
+* by eds-utils, when `read_eds(file)` raises; what it lists as corrected by itself is no refusal;
 * by node-canopen, when `Eds.fromFile(file)` throws;
 * by canopen-host, when `Eds::from_file` is an error.
 

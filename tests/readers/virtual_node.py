@@ -28,7 +28,7 @@ SAVE = b"save"
 
 
 class Reached:
-    """A node that runs already, alone on its bus, behind an adapter over TCP that has one client."""
+    """A node that runs already, alone on its bus, on an adapter over TCP that has one client."""
 
     is_shared = False
 
@@ -71,7 +71,7 @@ class Served(Reached):
 
 
 def reset(check: Check, node: canopen.RemoteNode, command: int = 0x81) -> None:
-    """Resets the node or its communication, and waits for its boot-up message, which is there before anybody could begin to wait for it."""
+    """Resets the node or its communication, and waits for its boot-up message, which is there before a program could begin to wait for it."""
     heard = Heard(node.network, 0x700 + NODE)
     node.nmt.send_command(command)
     check.that("boot-up message", heard.until(b"\0"), b"\0")
@@ -86,7 +86,7 @@ def check_states(check: Check, node: canopen.RemoteNode) -> None:
     heard = Heard(node.network, 0x700 + NODE)
     for command, state in (("OPERATIONAL", 5), ("STOPPED", 4), ("PRE-OPERATIONAL", 127)):
         node.nmt.state = command
-        # Heartbeats from before the command may be on their way; behind the first one of the state is no other.
+        # Heartbeats from before the command may be on their way; after the first one of the state is no other.
         check.that(f"state {state}", (heard.until(bytes([state])), heard.next()), (bytes([state]), bytes([state])))
         check.that(f"state {state} as the client shows it", node.nmt._state, state)
         if state == 4:

@@ -83,9 +83,9 @@ def check_transmit(check: Check, served: Served, network: canopen.Network, node:
         values = [12]
         served.say(f"set {index:04X}.{sub}=12")
     check.that("the TPDO of an event", heard.until(packed(entries, values)), packed(entries, values))
-    check.that("what it tells by SDO", read_all(node, entries), values)
+    check.that("what it reports by SDO", read_all(node, entries), values)
     settle(node)
-    check.that("TPDOs of other values behind it", set(heard.now()) - {packed(entries, values)}, set())
+    check.that("TPDOs of other values after it", set(heard.now()) - {packed(entries, values)}, set())
     node.nmt.state = "PRE-OPERATIONAL"
     if code_of(node.sdo.upload, 0x1005, 0) == 0x06020000:
         return
@@ -141,7 +141,7 @@ def check_emergencies(check: Check, served: Served, network: canopen.Network, no
 
 
 def check_lss(check: Check, network: canopen.Network, node: canopen.RemoteNode, device: dict) -> None:
-    """A device with LSS tells its node-ID, and one without says nothing."""
+    """A device with LSS reports its node-ID, and one without says nothing."""
     lss = network.lss
     lss.send_switch_state_global(lss.CONFIGURATION_STATE)
     if device["lss"]:

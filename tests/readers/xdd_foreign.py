@@ -71,7 +71,7 @@ def compare(root: ET.Element, device: dict[str, Any], said: str) -> tuple[Counte
         if found == expected:
             counts["facts"] += 1
         elif f"{where}:" in said or f"{where} " in said or not is_plain(expected) and "[EDS511]" in said:
-            counts["facts told to be otherwise"] += 1
+            counts["facts reported to be different"] += 1
         else:
             problems.append(f"{where} {what}: found {found!r}, expected {expected!r}")
 
@@ -122,7 +122,7 @@ def is_plain(value: Any) -> bool:
 def stated(
     node: ET.Element, parameters: dict[str, ET.Element], types: dict[str, ET.Element], entry: dict[str, Any]
 ) -> Iterator[tuple[str, Any, Any]]:
-    """What the file says of an entry, beside what the dump does."""
+    """What the file says of an entry, compared with what the dump does."""
     parameter = parameters.get(node.get("uniqueIDRef", ""))
     default = node.get("defaultValue")
     of_parameter = child(parameter, "defaultValue")

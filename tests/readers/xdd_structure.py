@@ -4,7 +4,7 @@
     xdd_structure.py --xdd-dir target/everything/xdd --dump target/everything/everything.json [--node 5]
 
 Reads KEY.xdd and KEY.xdc of every device with the XML parser of Python, which is not ours, and with what is written
-down here of the format: which elements stand in which, in which order, which attributes they need and what these look
+down here of the format: which elements are in which, in which order, which attributes they need and what these look
 like. Then every entry is compared with `odgen dump`. Exit code 0: all agrees; 1: a difference.
 """
 
@@ -21,7 +21,7 @@ from typing import Any, Iterator
 
 NAMESPACE = "{http://www.canopen.org/xml/1.1}"
 XSI_TYPE = "{http://www.w3.org/2001/XMLSchema-instance}type"
-# What stands in an element, in this order; `?` may be missing, `*` and `+` may be there several times.
+# What is in an element, in this order; `?` may be missing, `*` and `+` may be there several times.
 CHILDREN = {
     "ISO15745ProfileContainer": "ISO15745Profile+",
     "ISO15745Profile": "ProfileHeader ProfileBody",
@@ -173,7 +173,7 @@ def structure(root: ET.Element) -> Iterator[str]:
 
 
 def pattern(children: str) -> str:
-    """A regular expression for the names of children, each with a blank behind it."""
+    """A regular expression for the names of children, each with a space after it."""
     parts = []
     for child in children.split():
         name, times = (child[:-1], child[-1]) if child[-1] in "?*+" else (child, "")
@@ -194,7 +194,7 @@ def attributes(element: ET.Element, known: dict[str, str]) -> Iterator[str]:
 
 
 def references(root: ET.Element) -> Iterator[str]:
-    """Every identifier stands once, and every reference leads to one."""
+    """Every identifier is there once, and every reference leads to one."""
     defined = [element.get("uniqueID") for element in root.iter() if element.get("uniqueID")]
     for twice in {uid for uid in defined if defined.count(uid) > 1} if len(set(defined)) < len(defined) else ():
         yield f"{twice} is defined twice"
@@ -218,7 +218,7 @@ class Compare:
 def facts(
     root: ET.Element, device: dict[str, Any], model: dict[str, Any], node: int | None, compared: list[int]
 ) -> list[str]:
-    """What the file says, beside the dump."""
+    """What the file says, compared with the dump."""
     that = Compare(compared)
     parameters = {one.get("uniqueID"): one for one in root.iter(f"{NAMESPACE}parameter")}
     objects = {one.get("index"): one for one in root.iter("CANopenObject")}

@@ -47,7 +47,7 @@ pub(crate) fn run<'t, D: firmware_glue::Dictionary<'t>>(
             READ => Ok(()),
             WRITE => dictionary.write(index, sub, data, &mut ()).map(drop),
             WRITE_UNLOCKED => dictionary.write(index, sub, data, &mut Unlocked).map(drop),
-            // A kind that nobody made.
+            // A kind that was not made.
             _ => Err(firmware_glue::AbortCode::INTERNAL),
         };
         let outcome = outcome.and_then(|()| {

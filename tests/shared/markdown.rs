@@ -49,7 +49,7 @@ impl Table {
     /// The cell of a row in the column of this title; empty where a column is left out that nothing fills.
     pub(crate) fn cell<'a>(&self, row: &'a [String], title: &str) -> &'a str {
         let column = self.columns.iter().position(|column| column == title);
-        assert!(column.is_some() || OPTIONAL.contains(&title), "{title} is none of {:?}", self.columns);
+        assert!(column.is_some() || OPTIONAL.contains(&title), "{title} is not one of {:?}", self.columns);
         column.map_or("", |at| &row[at])
     }
 }
@@ -83,7 +83,7 @@ pub(crate) fn read(text: &str) -> Page {
                     cell.push('\n');
                 }
                 if let Some(anchor) = html.strip_prefix("<a id=\"").and_then(|rest| rest.split('"').next()) {
-                    assert!(page.anchors.insert(anchor.to_owned()), "the anchor {anchor} stands twice");
+                    assert!(page.anchors.insert(anchor.to_owned()), "the anchor {anchor} is used twice");
                     if !inside {
                         table.anchors.push(anchor.to_owned());
                     }

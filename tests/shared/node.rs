@@ -185,7 +185,7 @@ pub(crate) fn node() -> Owned {
     }
 }
 
-/// An application that remembers what it was told.
+/// An application that remembers what it was asked.
 #[derive(Default)]
 pub(crate) struct Log {
     pub(crate) unlocked: bool,

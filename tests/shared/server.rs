@@ -1,4 +1,5 @@
-// The SDO server of firmware-glue with a dictionary and an application of its own, for requests of eight bytes. Time stands still.
+// The SDO server of firmware-glue with a dictionary and an application of its own, for requests of eight bytes. Time
+// does not pass.
 
 use firmware_glue::clock::Instant;
 use firmware_glue::frame::{CanId, Frame};

@@ -61,7 +61,7 @@ impl<'a> Cases<'a> {
     fn all(&mut self) {
         let objects: Vec<&Json> = self.device["objects"].as_array().into_iter().flatten().collect();
         let indices: Vec<u16> = objects.iter().map(|object| index(&object["index"])).collect();
-        // Before, between and behind the objects there is nothing.
+        // Before, between and after the objects there is nothing.
         for index in indices.iter().flat_map(|index| [index - 1, index.wrapping_add(1)]).chain([0, 1, 0xFFFF])
         {
             if !indices.contains(&index) {
@@ -191,7 +191,7 @@ impl<'a> Cases<'a> {
         Some(values.iter().map(|value| (number(&value["value"]), value["supported"] != false)).collect())
     }
 
-    /// The entry behind an alias, and the factor: raw alias per raw target.
+    /// The target of an alias, and the factor: raw alias per raw target.
     fn target(&self, json: &Json) -> Option<(Entry<'a>, (i128, i128))> {
         let alias = json.get("alias")?;
         let (index, sub) = id(alias["of"].as_str()?)?;

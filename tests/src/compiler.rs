@@ -15,7 +15,7 @@ const CRATES: [&str; 3] = ["firmware_glue", "od_gen", "od_macros"];
 /// What the compiler makes of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Product<'a> {
-    /// Nothing that anybody needs: the file has mistakes.
+    /// Nothing: the file has mistakes.
     Messages,
     /// A program.
     Program(&'a Path),
@@ -24,7 +24,8 @@ pub enum Product<'a> {
 /// Compiles a file, named from the directory `tests`, from which paths in macros start, too. Its messages are in `stderr`.
 ///
 /// # Errors
-/// Cargo does not tell where the crates lie, or the compiler does not run. That the file has mistakes is no error.
+/// Cargo does not report where the crates lie, or the compiler does not run. That the file has mistakes is not an
+/// error.
 pub fn compile(file: &Path, product: Product<'_>) -> Result<Output, Failure> {
     static FOUND: OnceLock<Result<Vec<(&str, PathBuf)>, String>> = OnceLock::new();
     let crates = FOUND
@@ -78,7 +79,7 @@ fn library(messages: &[Value], name: &str) -> Result<PathBuf, Failure> {
     let files = of_crate.max_by_key(features).and_then(|message| message["filenames"].as_array());
     let mut files = files.into_iter().flatten().filter_map(Value::as_str).map(PathBuf::from);
     let file = files.find(|file| file.extension().is_none_or(|extension| extension != "rmeta"));
-    Ok(file.ok_or_else(|| format!("cargo tells of no library of {name}"))?)
+    Ok(file.ok_or_else(|| format!("cargo reports no library of {name}"))?)
 }
 
 /// What a compiler says of mistakes, without the lines that count them.

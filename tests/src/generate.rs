@@ -79,7 +79,7 @@ fn modules(system: &System, sources: &SourceMap) -> Result<Vec<Artifact>, Failur
     }
 }
 
-/// Writes what changed; tells for each file whether it did.
+/// Writes what changed; returns for each file whether it did.
 ///
 /// # Errors
 /// As [`all`], or a file cannot be written.
@@ -111,7 +111,7 @@ pub fn left() -> Result<Vec<String>, Failure> {
     Ok(left_over(&root().join("generated"), &files.collect::<Vec<_>>())?)
 }
 
-/// Removes what was generated before and is not any more; tells which files.
+/// Removes what was generated before and is not any more; returns which files.
 ///
 /// # Errors
 /// As [`left`], or a file cannot be removed.
@@ -142,7 +142,7 @@ pub fn first_difference(files: Vec<GeneratedFile>) -> Option<String> {
 /// `docs/messages.md`: every code with its explanation.
 fn messages() -> String {
     let mut text = String::from(
-        "# Messages\n\nEvery message of the compiler has a stable code. `odgen explain CODE` prints what stands here.\n",
+        "# Messages\n\nEvery message of the compiler has a stable code. `odgen explain CODE` prints what is written here.\n",
     );
     for code in od_spec::all_codes() {
         let severity = code.severity.word();
@@ -327,7 +327,7 @@ fn function<'a>(module: &'a str, name: &str) -> Option<&'a str> {
     Some(&module[start..end])
 }
 
-/// Replaces what stands between `<!-- name -->` and `<!-- /name -->`.
+/// Replaces what is between `<!-- name -->` and `<!-- /name -->`.
 fn block(text: &str, name: &str, content: &str) -> Result<String, Failure> {
     let (open, close) = (format!("<!-- {name} -->"), format!("<!-- /{name} -->"));
     let (before, rest) = text.split_once(&open).ok_or_else(|| format!("README.md lacks {open}"))?;

@@ -55,7 +55,7 @@ pub fn is_said_by_manuals(diagnostic: &Diagnostic) -> bool {
     is_note && of_manuals.contains(&diagnostic.code) || diagnostic.code == rule_codes::MODE_WITHOUT_OBJECTS
 }
 
-/// Compiles a file of the workspace that is expected to be without a message, but for notes.
+/// Compiles a file of the workspace that is expected to be without a message, except for notes.
 ///
 /// # Errors
 /// The file cannot be read, or the compiler has more to say than notes.

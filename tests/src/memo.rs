@@ -15,7 +15,7 @@ impl<K: Ord, V: 'static> Memo<K, V> {
         Self(Mutex::new(BTreeMap::new()))
     }
 
-    /// The value of a key. Who asks for it while it is made waits; who asks for another does not.
+    /// The value of a key. A caller that asks for it while it is made waits; one that asks for another does not.
     ///
     /// # Errors
     /// It could not be made.

@@ -16,14 +16,14 @@ pub const TEXTS: &str = include_str!("../shared/texts.od.yaml");
 /// A key of the language: what it is a key of, and its name.
 pub type KeyName = (&'static str, &'static str);
 
-/// A text of the specification, wherever it stands: a name stands where it is given and where it is used.
+/// A text of the specification, wherever it is: a name is where it is given and where it is used.
 #[derive(Debug, Clone)]
 pub struct Site {
-    /// The text that stands there.
+    /// The text that is there.
     pub text: String,
     /// The keys that it is given for.
     pub keys: BTreeSet<KeyName>,
-    /// Where it stands.
+    /// Where it is.
     pub places: Vec<Range<usize>>,
 }
 
@@ -160,7 +160,8 @@ pub fn text_keys() -> BTreeSet<KeyName> {
     found
 }
 
-/// What stands at a site instead of its text: the payload with the number of the site, and the placeholders that the text has.
+/// What is at a site instead of its text: the payload with the number of the site, and the placeholders that the text
+/// has.
 #[must_use]
 pub fn text_at(sites: &[Site], at: usize, payload: &str) -> String {
     let text = &sites[at].text;
@@ -168,7 +169,7 @@ pub fn text_at(sites: &[Site], at: usize, payload: &str) -> String {
     format!("{payload} {at} {placeholders}").trim_end().to_owned()
 }
 
-/// The text with a payload at some sites, each with its number, and where the payloads stand.
+/// The text with a payload at some sites, each with its number, and where the payloads are.
 #[must_use]
 pub fn planted(
     text: &str,

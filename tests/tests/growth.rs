@@ -59,7 +59,7 @@ fn twice_as_much_is_twice_the_work() {
     assert_eq!(growing(RIGHT, if od_tests::is_long() { 1 } else { 2 }), [""; 0]);
 }
 
-/// A few lines that stand for more than any device has: each is refused before it takes much memory.
+/// A few lines that describe more than any device has: each is refused before it takes much memory.
 #[test]
 fn little_text_takes_little_memory() {
     const MOST: u64 = 300 << 20;
@@ -144,8 +144,8 @@ fn line_breaks_take_little_memory() {
         let text = format!("[FileInfo]{line_break}FileVersion=1") + &line_break.repeat(LINES) + "[2000]";
         let (used, said) = said("a.eds", &text);
         let beside = used.bytes_max.saturating_sub(text.len() as u64);
-        assert!(beside < 10 * LINES as u64, "{beside} bytes beside {}", text.len());
-        // A place behind them is right.
+        assert!(beside < 10 * LINES as u64, "{beside} bytes compared with {}", text.len());
+        // A place after them is right.
         assert!(said.contains(&format!("a.eds:{}:2: ", LINES + 2)) && !said.contains("EDS123"), "{said}");
     }
 }

@@ -5,7 +5,7 @@
     demo.py --run [PORT]                     build and run until Ctrl-C; the adapter is at tcp:127.0.0.1:3333
 
 The firmware is firmware-glue/examples/pitch-controller, a PMC. The client knows it by the generated EDS alone and does to it what
-tests/readers/virtual_node.py and virtual_pdo.py do to virtual nodes. Here stands what a virtual node has not: an axis that moves, a
+tests/readers/virtual_node.py and virtual_pdo.py do to virtual nodes. Here is what a virtual node has not: an axis that moves, a
 fault with its cause, parameters in a flash, a UART that hears nonsense. The programs of tests/thumb/node have the same drivers and the
 dictionaries of PMM and Fullmo drive, whose entries are tried in the same way.
 
@@ -54,7 +54,7 @@ class Board:
     """The emulated board with the firmware: its UART is a TCP server."""
 
     def __init__(self, program: Path, port: int = 0) -> None:
-        # A socket of ours, which is listened to before the emulator is there: whoever connects waits for it.
+        # A socket of ours, which is listened to before the emulator is there: a client that connects waits for it.
         with socket.create_server((HOST, port)) as server:
             # Without it, each answer waits for the acknowledgement of the one before. Connections have it from here.
             server.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

@@ -1,4 +1,4 @@
-"""What demo.py checks of the demo firmware, beside what it shares with virtual nodes."""
+"""What demo.py checks of the demo firmware, in addition to what it shares with virtual nodes."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def client(address: str, eds: Path):
 
 
 def check_text(connection: socket.socket) -> Check:
-    """The lines of SLCAN, also those that are none."""
+    """The lines of SLCAN, also those that are not lines."""
     check = Check()
 
     def expect(what: str, said: bytes, answer: bytes) -> None:
@@ -235,7 +235,7 @@ def check_motion(check: Check, network: canopen.Network, node: canopen.RemoteNod
         check.that(f"the way to {asked}", positions[-1:], [reached])
         check.that("there and not back", positions, sorted(positions, reverse=reached < start))
         check.that("more than once", len(positions) > 4, True)
-        # The last one may be told together with the standstill.
+        # The last one may be reported together with the standstill.
         check.that("velocity", {velocity for _, velocity in shown[:-1]}, {5000 if reached > start else -5000})
         check.that("standstill", eventually(lambda: number(node, 0x606C), 0), 0)
         check.that("position by SDO", (number(node, POSITION), number(node, 0x5064)), (reached, reached))
@@ -280,7 +280,7 @@ def check_mapping(check: Check, node: canopen.RemoteNode) -> None:
 
 
 def check_fault(check: Check, network: canopen.Network, node: canopen.RemoteNode) -> None:
-    """A fault with its cause: told, shown, kept until the cause is gone and it is acknowledged."""
+    """A fault with its cause: reported, shown, kept until the cause is gone and it is acknowledged."""
     heard = Heard(network, 0x80 + NODE)
     status = number(node, STATUSWORD)
     check.that("no fault", status & 0x08, 0)

@@ -313,7 +313,7 @@ class Elf:
 
 
 def readable(symbol: str) -> str:
-    """The identifiers in a mangled name, without what stands between them."""
+    """The identifiers in a mangled name, without what is between them."""
     prefix = re.match(r"_R|_ZN", symbol)
     if not prefix:
         return symbol

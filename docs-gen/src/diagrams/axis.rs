@@ -1,7 +1,7 @@
 //! The picture of an axis: marks on a line, and below it the spans, each an arrow with its name.
 //!
-//! Marks stand equally far from each other: the picture says what is measured from where, and not how long it is. Spans that do not
-//! meet share a row.
+//! Marks are equally far from each other: the picture says what is measured from where, and not how long it is. Spans
+//! that do not meet share a row.
 
 use od_spec::model::AxisReach;
 
@@ -12,9 +12,9 @@ use crate::view::{AxisMarkPicture, AxisPicture, AxisSpanPicture};
 const WIDEST: i64 = 700;
 /// Characters of a line.
 const LIMITS: [usize; 4] = [28, 22, 17, 12];
-/// Least width between two marks, and beside the outermost ones.
+/// Least width between two marks, and next to the outermost ones.
 const INTERVAL: i64 = 84;
-/// Between two texts beside each other.
+/// Between two texts next to each other.
 const APART: i64 = 14;
 /// Half the height of a mark.
 const TICK: i64 = 6;

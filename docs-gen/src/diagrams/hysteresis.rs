@@ -27,9 +27,9 @@ pub(crate) struct DrawnSwitch {
     pub on_value: String,
     /// The value at which it goes off again, with its unit.
     pub off_value: String,
-    /// Where the entry stands that says the first value.
+    /// Where the entry with the first value is described.
     pub on_target: Option<Target>,
-    /// Where the entry stands that says the second one.
+    /// Where the entry with the second one is described.
     pub off_target: Option<Target>,
     /// That it is on, in a word.
     pub on: &'static str,
@@ -61,7 +61,7 @@ impl Scale {
             }
         }
         let texts = switches.iter().flat_map(|one| [&one.on_value, &one.off_value]);
-        // A value stands beside its band, and a word of a state beyond it.
+        // A value is next to its band, and a word of a state beyond it.
         let beside = texts.map(|text| room(text)).max()? + 40;
         let from = switches.iter().map(|one| room(&one.what)).max()? + 16;
         let start = from + beside;

@@ -5,7 +5,7 @@ use crate::view::{PictureLine, PictureLink, Target};
 
 /// Height of a line.
 pub(crate) const LINE: i64 = 14;
-/// From the upper edge of a line to where its letters stand.
+/// From the upper edge of a line to the baseline of its letters.
 pub(crate) const ASCENT: i64 = 11;
 /// Height and width of the smallest thing that a finger hits.
 const FINGER: i64 = 24;

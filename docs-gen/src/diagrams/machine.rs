@@ -1,4 +1,4 @@
-//! The picture of a state machine: states below one another, transitions as lines beside them.
+//! The picture of a state machine: states below one another, transitions as lines next to them.
 //!
 //! A transition runs in a lane: to the right of the states where it leads down, to the left where it leads up. Lanes next to
 //! the states are for short ways, and two transitions share a lane where their ways do not meet. A transition to the next
@@ -89,7 +89,7 @@ pub(crate) fn picture(
         y += height + GAP;
     }
     let lines = ways.iter().map(|way| {
-        // There is room for a code beside the way down, which is the way to operation.
+        // There is room for a code next to the way down, which is the way to operation.
         let code = if way.side == Side::Between { code_of(way.transition.number) } else { String::new() };
         MachineLine { code, ..line(way, &ways, &states) }
     });

@@ -11,7 +11,7 @@ use crate::view::{Target, TimingArrow, TimingLevel, TimingMark, TimingPicture, T
 
 /// Width of a character at most.
 const CHARACTER: u32 = 7;
-/// Characters beyond this are not given room: nobody reads such a picture.
+/// Characters beyond this are not given room: such a picture is not read.
 const LONGEST: usize = 10_000;
 /// Least width between two steps.
 const INTERVAL: u32 = 56;
@@ -50,11 +50,11 @@ impl DrawnLevel {
 pub(crate) struct DrawnSignal {
     /// Its name; may be empty.
     pub name: String,
-    /// Where it stands: `controlword, Bit 4` or `607Ah`.
+    /// Where it is written: `controlword, Bit 4` or `607Ah`.
     pub place: String,
-    /// Where that is told about.
+    /// Where that is described.
     pub target: Option<Target>,
-    /// Its levels: before the first step, then behind each.
+    /// Its levels: before the first step, then after each.
     pub levels: Vec<DrawnLevel>,
 }
 
@@ -65,7 +65,7 @@ impl DrawnSignal {
     }
 }
 
-/// Levels that are the same, one behind the other.
+/// Levels that are the same, one after the other.
 struct Run<'a> {
     level: &'a DrawnLevel,
     /// Position of the first.

@@ -203,7 +203,7 @@ impl Source<'_> {
         Table::unnumbered("units-all", "units", Cell::default(), vec![grid])
     }
 
-    /// The entries in a unit; an object whose entries all are stands for them.
+    /// The entries in a unit; an object whose entries all are represents them.
     fn entries_in(&self, unit: &Unit) -> Cell {
         let has = |entry: &Entry| entry.unit.as_ref().is_some_and(|its_unit| its_unit.name == unit.name);
         let (mut cell, mut shown) = (Cell::default(), BTreeSet::new());

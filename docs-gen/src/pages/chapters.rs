@@ -49,7 +49,8 @@ impl Source<'_> {
         (0..count).map(|table| self.table(TableId { section, table })).collect()
     }
 
-    /// The devices that the texts of a section tell of: those with the objects of its tables, or of the tables around it.
+    /// The devices that the texts of a section describe: those with the objects of its tables, or of the tables around
+    /// it.
     fn told_of(&self, chapter: &ChapterPlan, at: usize) -> Devices {
         let mut around = at;
         loop {
@@ -71,7 +72,7 @@ impl Source<'_> {
         }
     }
 
-    /// What stands in a section, without the tables that are not shown.
+    /// What is in a section, without the tables that are not shown.
     fn content(&self, section: usize, tables: &[Option<Table>], devices: &Devices) -> Vec<Content> {
         let mut warnings = 1..;
         let mut shown = 0..;
@@ -115,8 +116,8 @@ impl Source<'_> {
     }
 }
 
-/// Whether a section of a chapter concerns the devices shown, where others are not: it has a table of theirs, or one stands below
-/// it. A section of texts concerns whom the tables around it do.
+/// Whether a section of a chapter concerns the devices shown, where others are not: it has a table of theirs, or one is
+/// below it. A section of texts concerns whom the tables around it do.
 fn concerns(chapter: &ChapterPlan, tables: &[Vec<Option<Table>>], at: usize) -> bool {
     let mut around = at;
     loop {
@@ -140,7 +141,7 @@ fn below(chapter: &ChapterPlan, at: usize) -> std::ops::Range<usize> {
     at..next.map_or(chapter.sections.len(), |next| at + 1 + next)
 }
 
-/// The section that a section stands in.
+/// The section that a section is in.
 fn above(chapter: &ChapterPlan, at: usize) -> Option<usize> {
     let level = chapter.sections[at].level;
     chapter.sections[..at].iter().rposition(|plan| plan.level < level)

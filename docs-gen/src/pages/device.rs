@@ -96,7 +96,7 @@ impl Source<'_> {
         let info = &device.info;
         let number = |number: u32| self.wording.hexadecimal(number.into(), 8);
         let rates: Vec<String> = info.bit_rates.iter().map(u16::to_string).collect();
-        // What an EDS leaves out is not 0: nobody knows it.
+        // What an EDS leaves out is not 0: it is unknown.
         let is_known = |fact: Fact| match self.system.source {
             SystemSource::Specification => true,
             SystemSource::Eds => device.facts.get(fact).is_some(),
@@ -300,7 +300,7 @@ impl Source<'_> {
         Grid { object: Some(head), ..grid }
     }
 
-    /// What an object is for; the only entry of a VAR tells it in its row.
+    /// What an object is for; the only entry of a VAR has it in its row.
     fn about(&self, object: &Object) -> Cell {
         match object.kind {
             ObjectKind::Array | ObjectKind::Record => self.text(&object.about),
@@ -308,7 +308,7 @@ impl Source<'_> {
         }
     }
 
-    /// The danger that comes from an object as a whole; the only entry of a VAR tells it in its row.
+    /// The danger that comes from an object as a whole; the only entry of a VAR has it in its row.
     pub(crate) fn warning(&self, device: &Dictionary, object: &Object) -> Cell {
         match object.kind {
             ObjectKind::Array | ObjectKind::Record => {

@@ -1,4 +1,5 @@
-//! The objects of a device by what they are for: the functions that the manual tells of, in its order, then the areas of the object dictionary.
+//! The objects of a device by what they are for: the functions that the manual describes, in its order, then the areas
+//! of the object dictionary.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +18,7 @@ const LONGEST: usize = 20;
 enum Purpose {
     /// What the manual has a chapter or section for; the position of the section.
     Function(usize),
-    /// An area of the object dictionary that the manual does not tell of.
+    /// An area of the object dictionary that the manual does not describe.
     Area(Area),
 }
 

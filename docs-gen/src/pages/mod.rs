@@ -1,4 +1,4 @@
-//! What stands on the pages: devices, chapters of the manual, appendices and warnings.
+//! What is on the pages: devices, chapters of the manual, appendices and warnings.
 
 pub(crate) mod appendix;
 mod chapters;

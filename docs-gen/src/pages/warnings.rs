@@ -1,4 +1,4 @@
-//! The overview of all warnings: each once, with every place where it stands.
+//! The overview of all warnings: each once, with every place where it is written.
 
 use od_spec::model::{Devices, Dictionary, EntryId, SubIndex, Text};
 

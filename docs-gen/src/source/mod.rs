@@ -80,7 +80,7 @@ fn standard_names(device: &Dictionary) -> Vec<(Index, String)> {
     names.collect()
 }
 
-/// A text with links in place of its parts that they stand for. In another language where one is named.
+/// A text with links in place of the parts that they represent. In another language where one is named.
 fn with_links(text: &str, language: &str, mut links: Vec<(Range<usize>, Cell)>) -> Cell {
     links.sort_by_key(|(range, _)| range.start);
     let (mut cell, mut start) = (Cell::default(), 0);
@@ -108,7 +108,7 @@ pub(crate) struct Source<'a> {
     homes: BTreeMap<Index, String>,
     /// The document's sections by chapter.
     pub outline: Rc<Outline>,
-    /// Where the numbers of its tables, figures and sections stand.
+    /// Where the numbers of its tables, figures and sections are.
     pub numbers: Rc<Numbers>,
     lookup: Rc<Lookup>,
 }
@@ -373,10 +373,10 @@ impl<'a> Source<'a> {
         Cell::default().link(text, target.anchor, target.page)
     }
 
-    /// Where something of an object of these devices stands, if one of them has a page and the object.
+    /// Where something of an object of these devices is described, if one of them has a page and the object.
     pub(crate) fn target(&self, devices: &Devices, index: Index, anchor: String) -> Option<Target> {
         let device = self.led_to(devices, index).next()?;
-        // What no chapter details stands on the page of its device: each device has one. So does what another device has.
+        // What no chapter details is on the page of its device: each device has one. So does what another device has.
         let home = self.home(index);
         let is_shown = self.devices.iter().any(|one| one.key == device.key);
         let is_on_page_of_device = !is_shown || self.devices.iter().any(|device| device.key == home);
@@ -384,7 +384,7 @@ impl<'a> Source<'a> {
         Some(Target { anchor, page: page.to_owned() })
     }
 
-    /// Where an entry of a device stands.
+    /// Where an entry of a device is described.
     pub(crate) fn entry_target(&self, device: &Dictionary, id: EntryId) -> Option<Target> {
         self.target(&Devices::one(&device.key), id.index, entry_anchor(id))
     }
@@ -399,7 +399,7 @@ impl<'a> Source<'a> {
         self.entry_link_on(device, id).text(format!(" {}", device.entry_name(id).unwrap_or_default()))
     }
 
-    /// Whether one of these devices is shown; where none is, what is about all devices still stands.
+    /// Whether one of these devices is shown; where none is, what is about all devices is still shown.
     pub(crate) fn shows_any(&self, devices: &Devices) -> bool {
         *devices == Devices::All || self.devices.iter().any(|device| devices.includes(&device.key))
     }

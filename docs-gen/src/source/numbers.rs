@@ -1,4 +1,4 @@
-//! Where the numbered tables, figures and sections of the manual stand in a document, and links to them in running text.
+//! Where the numbered tables, figures and sections of the manual are in a document, and links to them in running text.
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use od_spec::running_text::{Numbered, mentions};
 use crate::source::Source;
 use crate::view::{Cell, Target};
 
-/// Where each number stands in a document; filled when the first text names one.
+/// Where each number is in a document; filled when the first text names one.
 pub(crate) type Numbers = OnceCell<BTreeMap<(Numbered, String), Target>>;
 
 impl Source<'_> {
@@ -23,7 +23,7 @@ impl Source<'_> {
         })
     }
 
-    /// What the chapters show of the devices that have a page. One number may stand twice: the first counts.
+    /// What the chapters show of the devices that have a page. One number may be there twice: the first counts.
     fn numbers_shown(&self) -> BTreeMap<(Numbered, String), Target> {
         let mut numbers = BTreeMap::new();
         for chapter in self.of_all_pages().chapter_views() {

@@ -112,7 +112,7 @@ impl Outline {
     }
 }
 
-/// Depth of a section: the parts of its number. One without a number that stands inside a chapter belongs to it.
+/// Depth of a section: the parts of its number. One without a number that is inside a chapter belongs to it.
 fn level(document: &Document, position: usize) -> usize {
     let sections = &document.sections;
     let parts = |number: &str| number.split('.').filter(|part| !part.is_empty()).count();

@@ -2,7 +2,7 @@
 
 use od_spec::model::Constraint;
 
-/// What stands for the number of a constraint of a series.
+/// What represents the number of a constraint of a series.
 pub(crate) const NUMBER: &str = "n";
 
 /// What a constraint is called in the documents: those of a series have one name.

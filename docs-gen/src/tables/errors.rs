@@ -146,7 +146,7 @@ impl Source<'_> {
         if self.devices.len() > 1 { Cell::plain(device_keys(devices)) } else { Cell::default() }
     }
 
-    /// The columns of the list of codes that nobody has said anything for, in words; empty where there are none.
+    /// The columns of the list of codes that have no description, in words; empty where there are none.
     pub(crate) fn unsaid_of_errors(&self, list: &Grid) -> String {
         let columns =
             [("reaction", Word::Reaction), ("reported_by", Word::ReportedBy), ("reset", Word::ResetBy)];
@@ -155,7 +155,7 @@ impl Source<'_> {
         missing.map(|(_, word)| self.word(word)).collect::<Vec<_>>().join(", ")
     }
 
-    /// The kinds of error that somebody says; what follows from the class of the code is no news.
+    /// The kinds of error that are stated; what follows from the class of the code is no news.
     fn register(&self, error: &ErrorCode) -> Cell {
         let kinds = error.kinds.iter().map(|kind| self.wording.error_kind(*kind));
         Cell::plain(kinds.collect::<Vec<_>>().join(", "))

@@ -31,7 +31,7 @@ impl Columns {
         Self(Vec::new())
     }
 
-    /// With a column of its own title behind the others.
+    /// With a column of its own title after the others.
     pub(crate) fn with(mut self, key: &'static str, title: impl Into<String>, align: Align) -> Self {
         self.0.push(Column { key, title: title.into(), align });
         self
@@ -52,7 +52,7 @@ impl Columns {
         self.with(key, source.word(word), Align::Center)
     }
 
-    /// A grid of these columns without those that nothing fills, apart from those that always stand.
+    /// A grid of these columns without those that nothing fills, apart from those that are always there.
     pub(crate) fn grid(self, rows: Vec<Row>, always: &[&str]) -> Grid {
         let keep: Vec<bool> = self
             .0

@@ -13,7 +13,7 @@ use crate::view::{Cell, Grid, ObjectHead, Row};
 
 impl Source<'_> {
     /// The details of objects: those of one value that follow each other share a grid, an array or record has its own.
-    /// `first` tells whether links to an object lead here.
+    /// `first` says whether links to an object lead here.
     pub(crate) fn details(&self, indices: &[Index], first: impl Fn(Index) -> bool) -> Vec<Grid> {
         let mut grids: Vec<Grid> = Vec::new();
         let mut simple: Vec<Row> = Vec::new();
@@ -183,12 +183,12 @@ impl Source<'_> {
     }
 }
 
-/// Whether marks tell the maker's words from a standard's: they mix only in an object that the maker writes. An object that a
-/// feature brings as a whole is the standard's, and says so in its notes.
+/// Whether marks distinguish the maker's words from a standard's: they mix only in an object that the maker writes. An
+/// object that a feature brings as a whole is the standard's, and says so in its notes.
 fn says_where_words_come_from(object: &Object) -> bool {
     object.origin == Origin::Manual
 }
 
-/// Columns that stand even when nothing fills them.
+/// Columns that are there even when nothing fills them.
 pub(crate) const ALWAYS: &[&str] =
     &["index", "sub", "name", "type", "access", "map", "default", "description"];

@@ -25,7 +25,8 @@ pub(crate) fn among<T: Ord>(object: &Object, fact: impl Fn(&Entry) -> T) -> Vec<
 }
 
 impl Source<'_> {
-    /// The objects of these indices on the devices shown. An object that devices share stands once, unless it differs.
+    /// The objects of these indices on the devices shown. An object that devices share is there once, unless it
+    /// differs.
     pub(crate) fn overview(&self, indices: &[Index]) -> Grid {
         let mut rows: Vec<Row> = Vec::new();
         for index in indices {
@@ -75,7 +76,7 @@ impl Source<'_> {
         let mem = match (stored, self.system.source) {
             (true, _) => "Y",
             (false, SystemSource::Specification) => "N",
-            // An EDS has no key for it: nobody knows.
+            // An EDS has no key for it: it is unknown.
             (false, SystemSource::Eds) => "",
         };
         Row {

@@ -92,7 +92,7 @@ impl Source<'_> {
         }
     }
 
-    /// The COB-ID entry; nothing where nobody states it.
+    /// The COB-ID entry; nothing where it is not stated.
     fn cob_id(&self, pdo: &Pdo) -> Cell {
         let cob_id = pdo.cob_id.as_ref();
         cob_id.map_or_else(Cell::default, |cob_id| Cell::plain(self.wording.cob_id_entry(cob_id)))

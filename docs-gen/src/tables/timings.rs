@@ -1,4 +1,4 @@
-//! Sequences of events: a row for each step, and the levels of the signals behind it.
+//! Sequences of events: a row for each step, and the levels of the signals after it.
 
 use od_spec::model::{
     BitField, Dictionary, EntryId, Level, NamedBits, Signal, SignalCarrier, Timing, TypeKind,
@@ -34,7 +34,7 @@ impl Source<'_> {
             .left(self, "event", Word::Event)
             .center(self, "cause", Word::CausedBy);
         for (signal, drawn) in timing.signals.iter().zip(&signals) {
-            // A heading takes no link: the index stands in the picture, and in the texts of the steps as a link.
+            // A heading takes no link: the index is in the picture, and in the texts of the steps as a link.
             let is_named = matches!(signal.carrier, SignalCarrier::Entry(_)) && !drawn.name.is_empty();
             let title = if is_named { drawn.name.clone() } else { drawn.title() };
             columns = columns.with("level", title, Align::Center);
@@ -74,7 +74,7 @@ impl Source<'_> {
         }
     }
 
-    /// Where the entry or the bit of a signal stands.
+    /// Where the entry or the bit of a signal is described.
     fn carrier_target(&self, carrier: &SignalCarrier) -> Option<Target> {
         match carrier {
             SignalCarrier::Entry(id) => self.entry_target(self.having_entry(*id)?, *id),
@@ -82,7 +82,7 @@ impl Source<'_> {
         }
     }
 
-    /// Where bits stand; of a type that several entries have, none is meant more than another.
+    /// Where bits are described; of a type that several entries have, none is meant more than another.
     pub(super) fn bits_target(&self, NamedBits { named_type, first, .. }: &NamedBits) -> Option<Target> {
         let of_type = |device: &Dictionary| -> Vec<EntryId> {
             let having = device.entries().filter(|(.., entry)| {
@@ -92,11 +92,11 @@ impl Source<'_> {
         };
         let device = self.devices.iter().copied().find(|device| !of_type(device).is_empty())?;
         let &[id] = of_type(device).as_slice() else { return None };
-        // Rows of bits stand on the page of their device.
+        // Rows of bits are on the page of their device.
         Some(Target { anchor: format!("{}.b{first}", entry_anchor(id)), page: device.key.clone() })
     }
 
-    /// Where bits stand: `controlword, Bit 4`.
+    /// Where bits are: `controlword, Bit 4`.
     pub(super) fn place_of_bits(&self, NamedBits { named_type, first, last, .. }: &NamedBits) -> String {
         if first == last {
             format!("{named_type}, {} {first}", self.word(Word::Bit))

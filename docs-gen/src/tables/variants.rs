@@ -24,7 +24,7 @@ impl Source<'_> {
     }
 }
 
-/// Keys of devices, as they stand in tables.
+/// Keys of devices, as they are in tables.
 pub(crate) fn device_keys(devices: &[&Dictionary]) -> String {
     devices.iter().map(|device| device.key.to_uppercase()).collect::<Vec<_>>().join(", ")
 }

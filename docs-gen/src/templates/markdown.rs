@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use minijinja::{Error, Value};
 use od_spec::markdown::{escape, paragraph as paragraph_of};
 
-/// Columns are filled up to this width, so that a table stands in columns as plain text, too.
+/// Columns are filled up to this width, so that a table has straight columns as plain text, too.
 const WIDEST: usize = 32;
 
 /// A cell as a paragraph of its own: what would begin a heading, a list or a quotation is escaped.
@@ -52,7 +52,7 @@ pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
                 }
             }
         }
-        // Behind the last of the parts that are in another language.
+        // After the last of the parts that are in another language.
         let language = part.get_attr("language")?.to_string();
         let behind = parts.peek().map(|next| next.get_attr("language")).transpose()?;
         if !language.is_empty() && behind.is_none_or(|next| next.to_string() != language) {
@@ -87,7 +87,8 @@ pub(crate) fn table(grid: &Value, page: &str) -> Result<String, Error> {
             .map(|contents| cell(&contents, page))
             .collect::<Result<_, _>>()?;
         let anchor = row.get_attr("anchor")?.to_string();
-        // Anchors of entries stand above the table, and those below them not at all; others, such as `erratum-17`, lead to their row.
+        // Anchors of entries are above the table, and those below them not at all; others, such as `erratum-17`, lead
+        // to their row.
         if let Some(first) = cells.first_mut()
             && anchor.contains('-')
             && heading(&anchor) == anchor

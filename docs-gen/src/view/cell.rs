@@ -56,7 +56,7 @@ impl Cell {
         }))
     }
 
-    /// With a text behind it; what it is says `span`, but for its end.
+    /// With a text after it; `span` says what it is, except for its end.
     fn push(mut self, text: &str, span: Span) -> Self {
         if text.is_empty() {
             return self;
@@ -71,7 +71,7 @@ impl Cell {
         self
     }
 
-    /// One plain text becomes a part, so that others can stand beside it.
+    /// One plain text becomes a part, so that others can be next to it.
     fn spell_out(&mut self) {
         if self.spans.is_empty() && !self.is_empty() {
             self.make_room();
@@ -85,17 +85,17 @@ impl Cell {
         }
     }
 
-    /// With a plain text behind it.
+    /// With a plain text after it.
     pub(crate) fn text(self, text: impl AsRef<str>) -> Self {
         self.push(text.as_ref(), Span::plain(0))
     }
 
-    /// With a text that stands out.
+    /// With a text that is emphasized.
     pub(crate) fn strong(self, text: impl AsRef<str>) -> Self {
         self.push(text.as_ref(), Span { kind: PartKind::Strong, ..Span::plain(0) })
     }
 
-    /// With something to be typed or read as it stands.
+    /// With something to be typed or read as it is.
     pub(crate) fn code(self, text: impl AsRef<str>) -> Self {
         self.push(text.as_ref(), Span { kind: PartKind::Code, ..Span::plain(0) })
     }
@@ -132,7 +132,7 @@ impl Cell {
         self
     }
 
-    /// With another cell behind it.
+    /// With another cell after it.
     pub(crate) fn and(mut self, mut behind: Cell) -> Self {
         if behind.is_empty() {
             return self;

@@ -91,9 +91,9 @@ pub struct Section {
     pub anchor: String,
     /// 1 for a chapter, 2 for `4.1`, and so on.
     pub level: usize,
-    /// Tables that stand in it.
+    /// Tables in it.
     pub tables: Vec<Table>,
-    /// What stands in it, in order.
+    /// What it contains, in order.
     pub content: Vec<Content>,
 }
 
@@ -139,7 +139,7 @@ pub struct Table {
 pub struct FigureView {
     /// Number, as printed.
     pub number: u16,
-    /// Where links lead: `figure-13`; the anchor of the table, where both stand under one caption.
+    /// Where links lead: `figure-13`; the anchor of the table, where both are under one caption.
     pub anchor: String,
     /// Caption.
     pub title: Cell,
@@ -194,11 +194,11 @@ pub struct Column {
     pub key: &'static str,
     /// Its title.
     pub title: String,
-    /// How its cells stand.
+    /// How its cells are aligned.
     pub align: Align,
 }
 
-/// How the cells of a column stand.
+/// How the cells of a column are aligned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Align {
@@ -267,9 +267,9 @@ pub struct Part<'a> {
 pub enum PartKind {
     /// Running text.
     Text,
-    /// Text that stands out.
+    /// Emphasized text.
     Strong,
-    /// To be typed or read as it stands.
+    /// To be typed or read as it is.
     Code,
     /// A link.
     Link,
@@ -311,7 +311,7 @@ pub struct DeviceView {
 /// Objects that belong together.
 #[derive(Debug, Clone, Serialize)]
 pub struct GroupView {
-    /// The chapter or section of the manual that tells of them, or the area of the object dictionary.
+    /// The chapter or section of the manual that describes them, or the area of the object dictionary.
     pub title: String,
     /// The objects, ascending.
     pub objects: LongList<ObjectName>,
@@ -358,7 +358,7 @@ pub struct ObjectView {
     pub origin: &'static str,
     /// Meaning.
     pub about: Cell,
-    /// Danger that comes from it as a whole; that of an entry stands in its row.
+    /// Danger that comes from it as a whole; that of an entry is in its row.
     pub warning: Cell,
     /// Lines about the object: standard, category, issue.
     pub notes: Vec<Cell>,
@@ -508,7 +508,7 @@ pub struct PdoField {
     pub anchor: String,
     /// Name.
     pub name: String,
-    /// Where its entry stands, if anywhere.
+    /// Where its entry is described, if anywhere.
     pub target: Option<Target>,
 }
 

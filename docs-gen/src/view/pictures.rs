@@ -46,7 +46,7 @@ pub struct MachinePicture {
     pub width: u32,
     /// Height of the picture.
     pub height: u32,
-    /// Where the entry stands that shows the state.
+    /// Where the entry that shows the state is described.
     pub status: Option<Target>,
     /// Its states, from the top.
     pub states: Vec<MachineState>,
@@ -84,7 +84,7 @@ pub struct MachineLine {
     pub tip: String,
     /// Where the start is, for a transition from there.
     pub start: Option<(u32, u32)>,
-    /// Where the number stands.
+    /// Where the number is.
     pub label: (u32, u32),
 }
 
@@ -108,9 +108,9 @@ pub struct TimingPicture {
 pub struct TimingSignal {
     /// Name; may be empty.
     pub name: String,
-    /// Where it stands: `controlword, Bit 4` or `607Ah`.
+    /// Where it is: `controlword, Bit 4` or `607Ah`.
     pub place: String,
-    /// Where its entry or bit stands, if it is one alone.
+    /// Where its entry or bit is described, if it is one alone.
     pub target: Option<Target>,
     /// The middle of its wave.
     pub y: u32,
@@ -173,7 +173,7 @@ pub struct HysteresisPicture {
 pub struct SwitchPicture {
     /// What goes on.
     pub name: String,
-    /// Where that stands.
+    /// Where that is described.
     pub y: u32,
     /// The values at which it stays what it was, as SVG writes them.
     pub band: String,
@@ -196,7 +196,7 @@ pub struct PictureText {
     pub y: u32,
     /// Whether it begins there (`left`) or ends there (`right`).
     pub align: Align,
-    /// Where the entry stands that says it, if one does.
+    /// Where the entry that states it is described, if there is one.
     pub target: Option<Target>,
 }
 
@@ -342,6 +342,6 @@ pub struct Rung {
     pub anchor: String,
     /// Name.
     pub name: String,
-    /// Where its entry stands, if anywhere.
+    /// Where its entry is described, if anywhere.
     pub target: Option<Target>,
 }

@@ -16,7 +16,7 @@
     remember(root.dataset.theme);
   });
 
-  // Where the printed manual says something else is told only when asked for, and to whoever searches. Without the script it is told.
+  // Where the printed manual says something else is shown only when asked for, and to a reader who searches. Without the script it is shown.
   const compare = byId("ui_errata");
   const showErrata = (shown) => {
     root.classList.toggle("unmarked", !shown);
@@ -56,7 +56,7 @@
     }
   }
 
-  // Objects that show another one have its name, and stand behind it.
+  // Objects that show another one have its name, and follow it.
   const views = new Set([...document.querySelectorAll("dd[data-kind=aliases] a")].map((link) => decodeURIComponent(link.hash.slice(1)).slice(0, 4)));
 
   // What a column's words are worth in the order of results, where it is not that of a fact.
@@ -105,7 +105,7 @@
       const fields = inHead ?? [[], [label], [], []];
       for (let at = 0; at < columns.length; at++) {
         const text = row.cells[at]?.textContent;
-        // The index and name of an object of one value stand in its heading.
+        // The index and name of an object of one value are in its heading.
         if (text && !(inHead && (at === 0 || at === name))) fields[fieldsOfColumns[at]].push(text);
       }
       if (inHead) continue;
@@ -131,7 +131,7 @@
     const { card } = item;
     index.card(item);
     const heading = card.querySelector("h1, h2, h3, h4, h5, h6"), title = clean(heading?.textContent ?? "");
-    // The index of an object stands before its name, its kind behind it.
+    // The index of an object is before its name, its kind after it.
     const small = heading?.querySelector("small")?.textContent ?? "";
     const [number, name] = item.isObject ? [title.slice(0, 5), clean(title.slice(5, title.length - small.length))] : ["", title];
     item.uses = card.querySelectorAll(":scope > dl dd[data-kind]").length;
@@ -192,7 +192,7 @@
   const atOnce = (work) => {
     for (;;) { const { done, value } = work.next(); if (done) return value; }
   };
-  // A first question that nobody asks makes the next ones quick.
+  // A first search without a user makes the next ones quick.
   const warmUp = () => {
     for (const text of ["er", "in", "st ac", "re"]) atOnce(index.search(text, null));
     performance.mark("search-ready");
@@ -205,7 +205,7 @@
   const wanted = () => filters.filter((filter) => filter.value).map((filter) => [filter.dataset.filter, filter.value]);
   const fitsEntry = (asked, facts) => asked.every(([key, value]) => facts[key] === value || (key === "pdo" && facts.pdo === "both"));
 
-  // `3020.5`, `3020:05` and `0x3020/0x05` name an entry; its card is found by the index. Behind `:` and `0x` digits are hexadecimal.
+  // `3020.5`, `3020:05` and `0x3020/0x05` name an entry; its card is found by the index. After `:` and `0x` digits are hexadecimal.
   const entry = (text) => {
     const parts = /^(?:0x)?([0-9a-f]{4})h?([.:/])(0x)?([0-9a-f]{1,3})(h?)$/i.exec(text.trim());
     if (!parts) return null;
@@ -221,7 +221,7 @@
   // What was found: on this page, and on others.
   let hits = [], hitsElsewhere = [];
   let landing = 0, working = 0, found = null, marked = null, dressed = new Set(), round = 0;
-  // The row that the address names; the answer to the question beside it may still be looked for.
+  // The row that the address names; the answer to the question next to it may still be looked for.
   let aimed = null;
   // Cards that have marks or rows put away, of this question or of one before.
   const worn = new Set();
@@ -398,7 +398,7 @@
   };
   more.addEventListener("click", () => list(Infinity));
 
-  // Where many places are asked, an answer is found in slices, so that the next letter need not wait: the last answer stands until the next one is whole.
+  // Where many places are asked, an answer is found in slices, so that the next letter need not wait: the last answer stays until the next one is whole.
   const SLICE = 3;
   let asking = null;
   const answer = ({ finish }, value) => {
@@ -482,7 +482,7 @@
     count.textContent = searching ? counts(shown, shownObjects) : "";
     show(byId("ui_nothing"), searching && shown === 0);
     landing += 1;
-    // On a large page the list of results comes first, and the cards follow. What was marked for the last question is put right with them.
+    // On a large page the list of results comes first, and the cards follow. What was marked for the last question is corrected with them.
     const begun = round, follow = () => {
       if (begun !== round) return;
       inPieces([...groups], place);
@@ -509,7 +509,7 @@
   };
   const KINDS = ["entry", "bit", "value", "error", "pdo", "table", "erratum"];
 
-  // ---- The question stands in the address, so that it can be sent, kept and gone back to.
+  // ---- The question is in the address, so that it can be sent, kept and gone back to.
   let keeping = 0;
   const asAddress = () => {
     const parts = new URLSearchParams();
@@ -571,7 +571,7 @@
     if (event.key === "Escape" && !isOver() && (typing || root.classList.contains("searching"))) { clear(); search.focus(); }
   });
 
-  // ---- The contents: they mark where the reader is. What stands below the bar is asked for, so that no card has to be watched.
+  // ---- The contents: they mark where the reader is. What is below the bar is asked for, so that no card has to be watched.
   const isOver = () => "popover" in contents && contents.matches(":popover-open");
   const below = () => (getComputedStyle(bar).position === "sticky" ? Math.max(bar.getBoundingClientRect().bottom, 0) : 0);
   let here = null, opened = null, isAsking = false, retries = 0;
@@ -585,7 +585,7 @@
     // Between two cards there is a gap; on a phone the contents may lie over them.
     const cards = [12, 40, 80].flatMap((down) => document.elementsFromPoint(left + width / 2, top + down).map((one) => one.closest("article.object, .part, .intro")));
     const card = cards.find((one) => one);
-    // What has just come into sight is not laid out yet, and stands nowhere.
+    // What has just come into sight is not laid out yet, and is nowhere.
     if (!card) {
       if (retries > 0) { retries -= 1; markOnNextFrame(); }
       return;
@@ -638,7 +638,7 @@
     for (const part of held) if (!around.includes(part)) part.style.contentVisibility = "";
     for (const part of more) part.style.contentVisibility = "visible";
     held = around;
-    // The browser tells of no layout that it has not put off.
+    // The browser reports no layout that it has not put off.
     fit(more.filter((part) => itemOf.has(part)));
   };
   const settle = (target) => {
@@ -656,7 +656,7 @@
     };
     step();
   };
-  // Whoever scrolls is not held.
+  // A reader who scrolls is not held.
   for (const kind of ["wheel", "touchmove", "pointerdown"]) addEventListener(kind, () => { landing += 1; }, { passive: true });
   addEventListener("keydown", (event) => { if (/^(Page|Arrow|Home|End| )/.test(event.key)) landing += 1; });
 
@@ -684,9 +684,9 @@
     // A link to where one is already changes no address.
     if (!elsewhere && link) setTimeout(reveal);
   });
-  // ---- On a phone the cells of a row stand below one another, each behind the title of its column; elsewhere, beside one another as far as there is room
-  // where a table is wider than its card. What is no table to a browser's layout any more is none to some screen readers, so that it says what it is. At other
-  // widths nobody needs that, and it would make a page half as large again.
+  // ---- On a phone the cells of a row are below one another, each after the title of its column; elsewhere, next to one another as far as there is room
+  // where a table is wider than its card. What is no longer a table to a browser's layout is not a table to some screen readers either, so that it says what it is. At other
+  // widths this is not needed, and it would make a page half as large again.
   const phone = matchMedia("(max-width: 37.5rem)"), PIECE = 50, LONG_TEXT = 60;
   const notStacked = [...document.querySelectorAll(".stack")].reverse();
   const stack = (table) => {
@@ -743,7 +743,7 @@
       stack(table);
       table.classList.add("folded");
     }
-    // A busy browser tells of what it has laid out after a link has landed.
+    // A busy browser reports what it has laid out after a link has landed.
     if (target) settle(target);
   };
   const isLaidOut = ({ card }) => card.firstElementChild?.checkVisibility?.({ contentVisibilityAuto: true }) ?? false;

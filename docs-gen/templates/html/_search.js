@@ -1,6 +1,6 @@
   // ---- Words: what is compared when a reader looks for something. This part knows nothing about the page.
 
-  // What a hit is worth by where it stands (less is better), and what is added for the beginning and the middle of a word.
+  // What a hit is worth by where it is (less is better), and what is added for the beginning and the middle of a word.
   const NAME = 0, FACT = 1, TEXT = 2, ERRATUM = 3;
   const COST = [0, 2, 5, 8], GRADE = [0, 1, 16], NEVER = 255;
   const SYNONYM = 1, SIMILAR = 4, SCATTERED = 24, READ_AT_ONCE = 200, MANY_PLACES = 20000;
@@ -91,7 +91,7 @@
       return place;
     }
 
-    // A name without blanks, and how many words it has.
+    // A name without spaces, and how many words it has.
     #name(text) {
       let name = this.#names.get(text);
       if (!name) {
@@ -134,7 +134,7 @@
       return found;
     }
 
-    // Where words follow each other; a longer word may stand for one of four letters or more (`rates` for `rate`).
+    // Where words follow each other; a longer word may replace one of four letters or more (`rates` for `rate`).
     *#phrase(words) {
       const sets = [];
       for (const word of words) sets.push(new Map(word.length > 3 ? yield* this.#like(word, false) : [[this.#numbers.get(word), 0]]));
@@ -153,7 +153,7 @@
       return { sets, hits: [...hits] };
     }
 
-    // Everything that a word of the question may stand for: itself, one word with its neighbour, two words, synonyms.
+    // Everything that a word of the question may mean: itself, one word with its neighbour, two words, synonyms.
     *#meanings(words, at) {
       const meanings = [], index = this;
       const single = function* (text, extra, middle) {
@@ -284,7 +284,7 @@
       return { costs, kinds, cards: ordered };
     }
 
-    // A card that has all words, but no place of it: behind the others, and shown where most of them are.
+    // A card that has all words, but no place of it: after the others, and shown where most of them are.
     #scattered(costs, first, end) {
       let best = -1, most = 0, rank = SCATTERED * 64;
       for (const cost of costs) {
@@ -322,7 +322,7 @@
       return whole.length > 0 ? whole : some;
     }
 
-    // How near a name is to the question, as a number below 64: the same, begins so, holds it; what is put behind (`later`) is.
+    // How near a name is to the question, as a number below 64: the same, begins so, holds it; what is put last (`later`) is.
     #near(place, whole) {
       let near = 50;
       for (let at = 0; at < place.names.length; at++) {

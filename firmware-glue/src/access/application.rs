@@ -57,7 +57,7 @@ pub trait Application<D: Entries> {
         Err(AbortCode::NO_DATA)
     }
 
-    /// Takes a part of a DOMAIN from an offset in bytes on; `last` tells that it is complete.
+    /// Takes a part of a DOMAIN from an offset in bytes on; `last` says that it is complete.
     ///
     /// # Errors
     /// The abort code for the client; [`AbortCode::NOT_STORED`] unless overridden.

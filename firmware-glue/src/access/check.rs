@@ -47,8 +47,8 @@ fn check_number(table: &Table<'_>, shared: &Attributes, data: &[u8]) -> Result<(
     }
 }
 
-/// A VISIBLE_STRING holds 20h to 7Eh, a UNICODE_STRING whole units; zeros may pad both, but stand between no characters, as
-/// what is behind them would be lost.
+/// A VISIBLE_STRING holds 20h to 7Eh, a UNICODE_STRING whole units; zeros may pad both, but cannot be between
+/// characters, because what is after them would be lost.
 fn check_text(string_type: StringType, data: &[u8]) -> Result<(), AbortCode> {
     match string_type {
         StringType::Octet => return Ok(()),

@@ -25,9 +25,9 @@ pub trait Constrained: Dictionary<'static> + 'static {
         Self::CONSTRAINTS.iter().find(|constraint| !(constraint.holds)(self))
     }
 
-    /// [`write`](Dictionary::write) that takes back a value with which a condition breaks that held before, and then tells the
-    /// client [`AbortCode::INCOMPATIBLE`]. A client that changes several values has to keep to an order in which the conditions
-    /// hold after each of them.
+    /// [`write`](Dictionary::write) that takes back a value with which a condition breaks that held before, and then
+    /// answers the client with [`AbortCode::INCOMPATIBLE`]. A client that changes several values has to keep to an order in
+    /// which the conditions hold after each of them.
     ///
     /// # Errors
     /// The abort code for the client.

@@ -1,4 +1,4 @@
-//! Values that come from a memory: what an entry cannot have is put right.
+//! Values that come from a memory: what an entry cannot have is corrected.
 
 use core::ops::Range;
 

@@ -68,7 +68,7 @@ pub trait Dictionary<'t>: Entries {
     /// The values.
     fn image(&self) -> &[u8];
 
-    /// The values, to be changed. No check stands between the caller and the bytes.
+    /// The values, to be changed. No check is between the caller and the bytes.
     fn image_mut(&mut self) -> &mut [u8];
 
     /// Whether the write condition of this number holds now.
@@ -165,8 +165,8 @@ pub trait Dictionary<'t>: Entries {
     /// Reads a DOMAIN from an offset in bytes on, from the application; returns the number of bytes, 0 at its end.
     ///
     /// # Errors
-    /// That it does not exist, [`AbortCode::WRITE_ONLY`], [`AbortCode::UNSUPPORTED_ACCESS`] for an entry that is none, what
-    /// the application says.
+    /// That it does not exist, [`AbortCode::WRITE_ONLY`], [`AbortCode::UNSUPPORTED_ACCESS`] for what is not an entry,
+    /// what the application says.
     fn upload_domain<A: Application<Self>>(
         &mut self,
         index: u16,
@@ -180,7 +180,7 @@ pub trait Dictionary<'t>: Entries {
         application.read_domain(self, entry, offset, buffer)
     }
 
-    /// Gives a part of a DOMAIN to the application, from an offset in bytes on; `last` tells that it is complete.
+    /// Gives a part of a DOMAIN to the application, from an offset in bytes on; `last` says that it is complete.
     ///
     /// # Errors
     /// That it does not exist, its access, lock and write condition, what the application says.
@@ -220,8 +220,9 @@ pub trait Dictionary<'t>: Entries {
     }
 
     /// Takes back bytes that [`stored`](Self::stored) gave, with the number that [`layout`](Self::layout) had then. The values
-    /// themselves are not checked: keep a checksum beside them, and let [`correct_stored`](Self::correct_stored) look at what another firmware may have
-    /// saved. Entries that follow the node-ID come back as they were saved: where the region has such ([`follows_node_id`](Self::follows_node_id)), keep the node-ID beside them, too.
+    /// themselves are not checked: keep a checksum with them, and let [`correct_stored`](Self::correct_stored) look at
+    /// what another firmware may have saved. Entries that follow the node-ID come back as they were saved: where the
+    /// region has such ([`follows_node_id`](Self::follows_node_id)), keep the node-ID with them, too.
     ///
     /// # Errors
     /// [`OtherLayout`] if they are not of this layout; nothing changes then.
@@ -314,7 +315,7 @@ pub(crate) fn writable<'t>(table: &Table<'t>, index: u16, sub: u8) -> Result<Fou
     if found.shared.flags.has(Flags::WRITE) { Ok(found) } else { Err(AbortCode::READ_ONLY) }
 }
 
-/// A DOMAIN with an access; `refusal` tells that it has not.
+/// A DOMAIN with an access; `refusal` says that it has not.
 fn find_domain<'t>(
     table: &Table<'t>,
     index: u16,
@@ -405,7 +406,7 @@ fn held<'t, 'd>(
     }
 }
 
-/// Puts a value as the device itself does, whoever else may write the entry.
+/// Puts a value as the device itself does, regardless of who else may write the entry.
 pub(crate) fn hold<'t>(
     table: &Table<'t>,
     image: &mut [u8],

@@ -68,8 +68,8 @@ impl<'t, I: AsRef<[u8]> + AsMut<[u8]>> TableDictionary<'t, I> {
     /// target. It has to be one that the entry can have.
     ///
     /// # Errors
-    /// What a client would be told about the value; [`AbortCode::READ_ONLY`] for what is constant, [`AbortCode::UNSUPPORTED_ACCESS`] for
-    /// a DOMAIN.
+    /// What a client would get for the value; [`AbortCode::READ_ONLY`] for what is constant,
+    /// [`AbortCode::UNSUPPORTED_ACCESS`] for a DOMAIN.
     pub fn hold(&mut self, row: Row, data: &[u8]) -> Result<(), AbortCode> {
         hold(self.table, self.image.as_mut(), self.table.found(row), data)
     }

@@ -38,7 +38,7 @@ impl fmt::Display for CanId {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Content {
-    /// Up to eight bytes; those behind the length are 0.
+    /// Up to eight bytes; those after the length are 0.
     Data { bytes: [u8; 8], length: u8 },
     /// A remote frame (RTR): a request for a data frame of that length.
     Remote { length: u8 },

@@ -22,7 +22,7 @@ impl NodeId {
         self.0
     }
 
-    /// The node's own identifier behind a base below 780h, such as 700h (CiA 301 table 34).
+    /// The node's own identifier after a base below 780h, such as 700h (CiA 301 table 34).
     pub(crate) fn identifier(self, base: u16) -> CanId {
         CanId::new(base + u16::from(self.0)).unwrap_or(CanId::MAX)
     }
@@ -35,7 +35,7 @@ impl fmt::Display for NodeId {
     }
 }
 
-/// Identifiers that belong to the nodes 1 to 127, one each, behind a base such as 700h: the node of one.
+/// Identifiers that belong to the nodes 1 to 127, one each, after a base such as 700h: the node of one.
 pub(crate) fn node_of(id: CanId, base: u16) -> Option<u8> {
     let nodes = base + 1..base + 128;
     if nodes.contains(&id.get()) { u8::try_from(id.get() - base).ok() } else { None }

@@ -1,4 +1,5 @@
-//! Emergencies: errors that a node has, tells and remembers (CiA 301 9.2.5 and 9.6.3, 1001h, 1003h, 1014h, 1015h), and those of others that it hears (1028h).
+//! Emergencies: errors that a node has, reports and remembers (CiA 301 9.2.5 and 9.6.3, 1001h, 1003h, 1014h, 1015h),
+//! and those of others that it hears (1028h).
 //!
 //! ```
 //! use firmware_glue::emcy::{Emergency, ErrorRegister};
@@ -57,7 +58,7 @@ impl Emergency {
         Self { register: register.with(ErrorRegister::GENERIC), ..self }
     }
 
-    /// With bytes that the manufacturer gives a meaning; the first two stand in the error history, too.
+    /// With bytes that the manufacturer gives a meaning; the first two are in the error history, too.
     #[must_use]
     pub const fn with_details(self, details: [u8; 5]) -> Self {
         Self { details, ..self }
@@ -127,12 +128,12 @@ impl Message {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Raised {
-    /// It is new: it stands in 1001h and 1003h, and a message waits to be sent.
+    /// It is new: it is in 1001h and 1003h, and a message waits to be sent.
     New,
     /// It was there already; nothing is done again.
     Present,
-    /// There are more errors than the producer has room for: it stands in 1003h and its message waits to be sent, but it cannot
-    /// be cleared. Its bits stay in 1001h until [`EmergencyProducer::clear_all`].
+    /// There are more errors than the producer has room for: it is in 1003h and its message waits to be sent, but it
+    /// cannot be cleared. Its bits stay in 1001h until [`EmergencyProducer::clear_all`].
     NotKept,
 }
 
@@ -172,7 +173,7 @@ impl<const N: usize> EmergencyProducer<N> {
         }
     }
 
-    /// An error occurs. One that is present already, by its code, is not told again.
+    /// An error occurs. One that is present already, by its code, is not reported again.
     pub fn raise<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) -> Raised {
         if self.is_present(emergency.code) {
             return Raised::Present;
@@ -208,12 +209,12 @@ impl<const N: usize> EmergencyProducer<N> {
         true
     }
 
-    /// Every error is gone. `false` if there was none.
+    /// Every error is gone. `false` if there was no error.
     pub fn clear_all<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D) -> bool {
         self.clear_all_but(dictionary, |_| false)
     }
 
-    /// Every error is gone but those with some codes. `false` if there was none.
+    /// Every error is gone but those with some codes. `false` if there was no error.
     pub(crate) fn clear_all_but<'t, D: Dictionary<'t>>(
         &mut self,
         dictionary: &mut D,

@@ -14,7 +14,7 @@ pub const REQUEST: u16 = 0x7E5;
 /// Identifier of the slave's answers.
 const ANSWER: u16 = 0x7E4;
 
-/// A node-ID, or none: a node without one takes part in nothing but LSS. On the bus, 255 stands for none.
+/// A node-ID, or none: a node without one takes part in nothing but LSS. On the bus, 255 means none.
 pub type MaybeNode = Option<NodeId>;
 
 /// The identity of a node: 1018h.1 to 1018h.4.
@@ -227,7 +227,7 @@ impl Lss {
         node
     }
 
-    /// Nobody sets the slave up any more: the node works, and does not hear the master's end.
+    /// The slave is no longer being set up: the node works, and does not hear the master's end.
     pub const fn leave(&mut self) {
         (self.state, self.selected, self.identified, self.scanned) = (LssState::Waiting, 0, 0, 0);
     }

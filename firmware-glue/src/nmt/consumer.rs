@@ -61,7 +61,7 @@ impl Watched {
         }
     }
 
-    /// The node and how long it may be silent; a time of 0 watches nobody.
+    /// The node and how long it may be silent; a time of 0 watches no node.
     fn target(&self) -> Option<(NodeId, Duration)> {
         let node = NodeId::new(u8::try_from(self.entry >> 16).ok()?)?;
         let time = self.entry & 0xFFFF;
@@ -90,7 +90,7 @@ impl<const N: usize> Consumer<N> {
         Self { watched: [Watched::NOBODY; N] }
     }
 
-    /// What a heartbeat or boot-up message tells, if 1016h watches its node.
+    /// What a heartbeat or boot-up message reports, if 1016h watches its node.
     pub fn handle<'t, D: Dictionary<'t>>(
         &mut self,
         frame: &Frame,
@@ -221,7 +221,7 @@ mod tests {
     #[test]
     fn only_heartbeats_of_watched_nodes_count() {
         let (device, mut consumer) = (device(), Consumer::<3>::new());
-        assert_eq!(consumer.handle(&beat(4, 5), &device, at(0)), None, "a time of 0 watches nobody");
+        assert_eq!(consumer.handle(&beat(4, 5), &device, at(0)), None, "a time of 0 watches no node");
         assert_eq!(consumer.handle(&beat(6, 5), &device, at(0)), None);
         let two = Frame::data(CanId::new(0x703).expect("11 bits"), &[5, 5]).expect("two bytes");
         assert_eq!(consumer.handle(&two, &device, at(0)), None);

@@ -17,7 +17,8 @@ pub enum Guarding {
     Resumed,
 }
 
-/// Tells others that the node is alive. A heartbeat (1017h not 0) takes precedence over guarding: there is never both.
+/// Shows other nodes that the node is alive. A heartbeat (1017h not 0) takes precedence over guarding: there is never
+/// both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ErrorControl {
     /// When the last message with the state was sent; none while 1017h is 0.
@@ -108,7 +109,7 @@ impl ErrorControl {
         Some((answer, resumed))
     }
 
-    /// The master is guarding from its next question on, as after a time in which nobody could ask.
+    /// The master is guarding from its next question on, as after a time in which no master could ask.
     pub const fn forget_master(&mut self) {
         self.life = Life::Unguarded;
     }

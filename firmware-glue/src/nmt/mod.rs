@@ -103,7 +103,7 @@ pub enum Service {
     ErrorControl,
 }
 
-/// What an NMT master tells a node (CiA 301 9.2.6.2).
+/// What an NMT master commands a node to do (CiA 301 9.2.6.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Command {
@@ -152,7 +152,7 @@ pub enum Transition {
     ResetCommunication,
 }
 
-/// What 1029h tells a node to do when an error occurs (CiA 301 9.6.3, 1029h).
+/// What 1029h makes a node do when an error occurs (CiA 301 9.6.3, 1029h).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ErrorBehaviour {

@@ -31,7 +31,7 @@ pub enum Event {
     Heartbeat(NodeEvent),
     /// Something happened to the master that guards this node.
     Guarding(Guarding),
-    /// A node that 1028h names tells of an error, or, with the code 0000h, that one is gone.
+    /// A node that 1028h names reports an error, or, with the code 0000h, that one is gone.
     Emergency(NodeId, Emergency),
     /// The bit rate is to be switched.
     Lss(LssEvent),

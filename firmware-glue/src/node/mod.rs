@@ -112,7 +112,8 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         self.id
     }
 
-    /// Whether a service runs now: for what the firmware has beside the node, such as more SDO servers (1201h to 127Fh).
+    /// Whether a service runs now: for what the firmware has in addition to the node, such as more SDO servers (1201h
+    /// to 127Fh).
     pub const fn serves(&self, service: Service) -> bool {
         self.id.is_some() && self.restart.is_none() && !self.lss.is_silent() && self.state().allows(service)
     }
@@ -144,7 +145,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
     }
 
     /// Every error of the device is gone, also those that there was no room for ([`Raised::NotKept`]); what the node itself finds wrong stays.
-    /// `false` if there was none.
+    /// `false` if there was no such error.
     pub fn clear_all<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D) -> bool {
         self.emergencies.clear_all_but(dictionary, |code| OWN_ERRORS.contains(&code))
     }
@@ -227,7 +228,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
     ) -> Option<Frame> {
         while let Some(event) = self.lss.poll(now) {
             if event == LssEvent::Switched {
-                // All were silent: whoever is watched is so from the next frame on.
+                // All were silent: a watched node is watched from the next frame on.
                 self.consumer = Consumer::new();
                 self.control.forget_master();
             }
@@ -421,7 +422,7 @@ fn channel<'t, D: Dictionary<'t>>(dictionary: &D, id: NodeId) -> Channel {
     Channel::of_server(dictionary, 0).unwrap_or(Channel::predefined(id))
 }
 
-/// Puts every value back to the factory's, but for those that the device keeps by itself ([`Storage::Remanent`]).
+/// Puts every value back to the factory's, except those that the device keeps by itself ([`Storage::Remanent`]).
 fn reset_all<'t, D: Dictionary<'t>>(dictionary: &mut D, id: NodeId) {
     let table = dictionary.table();
     let kept = table.region(Storage::Remanent).map_or(0..0, Region::range);
@@ -430,8 +431,9 @@ fn reset_all<'t, D: Dictionary<'t>>(dictionary: &mut D, id: NodeId) {
     }
 }
 
-/// Puts communication objects back to the factory's values, those that are not stored among them, but for what other commands store, and the
-/// errors that are present and those that were (1001h to 1003h): they outlive a reset of the communication.
+/// Puts communication objects back to the factory's values, those that are not stored among them, except what other
+/// commands store, and the errors that are present and those that were (1001h to 1003h): they outlive a reset of the
+/// communication.
 fn reset_communication<'t, D: Dictionary<'t>>(dictionary: &mut D, id: NodeId) {
     let table = dictionary.table();
     for row in 0..table.parts().first_application_row {

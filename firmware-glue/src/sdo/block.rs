@@ -18,7 +18,7 @@ const HOPELESS: u8 = 8;
 /// How a transfer in blocks ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct End {
-    /// Bytes of the last segment that are none.
+    /// Bytes of the last segment that are padding.
     pub(crate) unused: u8,
     /// Checksum of all bytes.
     pub(crate) crc: u16,
@@ -109,7 +109,7 @@ pub(crate) struct Receiver {
 pub(crate) struct Taken {
     /// Data that are settled.
     pub(crate) bytes: Option<[u8; 7]>,
-    /// What the other side is told at the end of a block.
+    /// What the other side is sent at the end of a block.
     pub(crate) received: Option<Received>,
 }
 

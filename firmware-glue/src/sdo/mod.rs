@@ -1,6 +1,6 @@
 //! SDO: access to the dictionary of a node over the bus (CiA 301 7.2.4).
 //!
-//! Nothing here sends, waits or knows a clock: frames go in, frames come out, and the time is told.
+//! Nothing here sends, waits or knows a clock: frames go in, frames come out, and the time is given.
 //!
 //! - [`SdoServer`] serves any dictionary: expedited and segmented transfers, and with the feature
 //!   `sdo-block` blocks with checksums.

@@ -1,10 +1,10 @@
-//! Pieces of data that somebody else has.
+//! Pieces of data that another owner has.
 
 use super::codec::Piece;
 use crate::abort::AbortCode;
 
 /// The piece from an offset on. `read` gives the number of bytes that it put, 0 at the end. One byte more than a piece takes is
-/// asked for, as that tells whether it is the last.
+/// asked for, because that shows whether it is the last.
 pub(super) fn gather(
     offset: u32,
     mut read: impl FnMut(u32, &mut [u8]) -> Result<usize, AbortCode>,

@@ -6,7 +6,7 @@ use crate::table::entry::EntryId;
 /// The groups that a client stores: those of sub-index 1.
 pub const ALL: [Storage; 3] = [Storage::Communication, Storage::Application, Storage::Manufacturer];
 
-/// What a client tells by a signature in 1010h or 1011h.
+/// What a client commands by a signature in 1010h or 1011h.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Command {

@@ -1,8 +1,9 @@
-//! Which objects there are, and where each stands in a table.
+//! Which objects there are, and where each is in a table.
 //!
-//! Indices are looked at in blocks of 32. A block with objects has a bit for each index; the bits below one's own tell how many
-//! objects stand before it. Blocks are found by perfect hashing: a bucket's seed sends every block number of the bucket to a
-//! place of its own, so that a search is one look, however many objects there are and however their indices lie apart.
+//! Indices are looked at in blocks of 32. A block with objects has a bit for each index; the bits below one's own show
+//! how many objects are before it. Blocks are found by perfect hashing: a bucket's seed sends every block number of the
+//! bucket to a place of its own, so that a search is one look, however many objects there are and however their indices
+//! lie apart.
 
 /// Indices of a block.
 const SIZE: u16 = 32;
@@ -118,7 +119,7 @@ impl<'t> Directory<'t> {
         Some(scaled(seeded(hash, seed), self.blocks.len()))
     }
 
-    /// How many objects stand before the one of an index, if there is one.
+    /// How many objects are before the one of an index, if there is one.
     #[inline]
     pub(crate) fn position(&self, index: u16) -> Option<usize> {
         let number = index >> SIZE_BITS;
@@ -159,8 +160,8 @@ fn all_blocks(indices: &[u16]) -> impl Iterator<Item = Block> {
     })
 }
 
-/// Finds a place for each of the blocks that stand in front of the places, and the seeds that lead there. The largest buckets
-/// choose first, while there is room.
+/// Finds a place for each of the blocks that are in front of the places, and the seeds that lead there. The largest
+/// buckets choose first, while there is room.
 fn place(places: &[Block], seeds: &mut [u8], order: &mut [u16]) -> Option<()> {
     let (blocks, buckets) = (places.get(..order.len())?, seeds.len());
     let members = |bucket: usize| {

@@ -41,7 +41,7 @@ impl<'t> Found<'t> {
         Self { row, place, shared }
     }
 
-    /// Its bytes in the image, with what tells the length of a string, where it is there.
+    /// Its bytes in the image, with what holds the length of a string, where it is there.
     pub(crate) fn place_in_image(self) -> Option<Range<usize>> {
         let before = self.shared.data_type.string().map_or(0, prefix);
         let start = self.offset();

@@ -42,7 +42,7 @@ impl Flags {
     }
 }
 
-/// Data types 0001h to 0007h that may stand in an RPDO as placeholders for bits that the device does not use.
+/// Data types 0001h to 0007h that may be in an RPDO as placeholders for bits that the device does not use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dummies(u8);
 
@@ -58,7 +58,7 @@ impl Dummies {
         }
     }
 
-    /// Whether the data type at an index, 1 to 7, may stand in an RPDO.
+    /// Whether the data type at an index, 1 to 7, may be in an RPDO.
     pub(crate) const fn has(self, index: u16) -> bool {
         matches!(index, 1..=7) && self.0 & 1 << index != 0
     }

@@ -3,7 +3,7 @@
 use crate::table::Attributes;
 use crate::value::data_type::DataType;
 
-/// The mapping object of a PDO is this far behind its communication object.
+/// The mapping object of a PDO is this far after its communication object.
 pub(crate) const MAPPING: u16 = 0x200;
 /// Communication object of RPDO 1.
 pub(crate) const RECEIVE: u16 = 0x1400;

@@ -155,7 +155,7 @@ impl<'t> Table<'t> {
             return NOBODY;
         };
         let Some(index) = self.0.directory.index(at) else { return NOBODY };
-        // The end of the list stands for rows that nothing has.
+        // The end of the list represents rows that nothing has.
         if self.0.entries.get(usize::from(row)).is_none() {
             return NOBODY;
         }
@@ -181,7 +181,7 @@ impl<'t> Table<'t> {
         self.0.entries.get(usize::from(row)).copied().unwrap_or(EntryRow { attributes: NONE, place: 0 })
     }
 
-    /// The alias behind an entry.
+    /// The alias that an entry is.
     pub(crate) fn alias(&self, row: Row) -> Option<&'t Alias> {
         self.0.aliases.get(usize::from(self.row(row).place))
     }

@@ -103,7 +103,7 @@ pub const fn element(sub: u8, highest: usize, start: usize, size: usize) -> Opti
 }
 
 /// Offset of a value in the object with a number: `first` to `last`, the value of the first object at `start`, those of the
-/// others `step` bytes behind each other.
+/// others `step` bytes after each other.
 #[inline]
 pub const fn numbered(number: u16, first: u16, last: u16, start: usize, step: usize) -> Option<usize> {
     if number >= first && number <= last { Some(start + (number - first) as usize * step) } else { None }

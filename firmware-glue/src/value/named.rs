@@ -1,4 +1,4 @@
-//! Enums and bit fields: newtypes around their raw number, so that a value nobody named is still a value.
+//! Enums and bit fields: newtypes around their raw number, so that a value without a name is still a value.
 
 use core::fmt;
 

@@ -27,7 +27,7 @@ pub(crate) fn signed(bytes: &[u8]) -> i64 {
     }
 }
 
-/// The number that stands for a value wherever values are compared: the value itself, but of UNSIGNED64 the value minus
+/// The number that represents a value wherever values are compared: the value itself, but of UNSIGNED64 the value minus
 /// 2^63, which keeps the order and fits, and of REAL the bits without the sign, negative where the value is. What is no number
 /// (NaN) lies beyond infinity.
 #[inline]

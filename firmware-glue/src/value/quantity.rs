@@ -47,9 +47,9 @@ pub trait Quantity: Copy {
     const SCALE: Fraction;
     /// One raw step in the unit's base.
     const STEP: Fraction;
-    /// What the raw value 0 stands for in the symbol.
+    /// What the raw value 0 means in the symbol.
     const OFFSET: SignedFraction = SignedFraction::ZERO;
-    /// What the raw value 0 stands for in the unit's base.
+    /// What the raw value 0 means in the unit's base.
     const ORIGIN: SignedFraction = SignedFraction::ZERO;
     /// What quantities have to share to be converted into each other, such as V for millivolts and volts.
     type Base;

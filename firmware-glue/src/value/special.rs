@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// A value `V`, or one of the special values `S` that stand beside it.
+/// A value `V`, or one of the special values `S` that are possible in addition to it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Special<V, S> {

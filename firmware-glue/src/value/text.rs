@@ -14,7 +14,7 @@ pub struct NoFit;
 pub struct Utf16<'a>(pub &'a [u8]);
 
 impl<'a> Utf16<'a> {
-    /// The characters; what is none is shown as U+FFFD.
+    /// The characters; anything else is shown as U+FFFD.
     pub fn chars(self) -> impl Iterator<Item = char> + 'a {
         let units = self.0.chunks_exact(2).map(|unit| match *unit {
             [low, high] => u16::from_le_bytes([low, high]),
@@ -129,7 +129,7 @@ fn counted(bytes: &[u8]) -> &[u8] {
     rest.get(..usize::from(u16::from_le_bytes(*length))).unwrap_or(rest)
 }
 
-/// Bytes in the image that a string has beside its capacity.
+/// Bytes in the image that a string has in addition to its capacity.
 pub(crate) const fn prefix(string_type: StringType) -> usize {
     match string_type {
         StringType::Octet => 2,

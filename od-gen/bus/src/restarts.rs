@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_boot_up_message_or_a_state_that_nobody_commanded_is_a_restart() {
+    fn a_boot_up_message_or_a_state_that_was_not_commanded_is_a_restart() {
         let (boot_up, fell_back) = (Some(Restart::BootUp), Some(Restart::FellBack));
         assert_eq!(after(&[(0x705, &[0]), (0x705, &[127])]), [boot_up, None]);
         assert_eq!(after(&[(0x705, &[5]), (0x705, &[127])]), [fell_back, None]);

@@ -34,7 +34,7 @@ impl Interface {
     pub fn open(name: &str) -> io::Result<Self> {
         let socket = CanSocket::open(name)?;
         socket.set_write_timeout(PATIENCE)?;
-        // Errors on the bus are told, too, and not only frames.
+        // Errors on the bus are reported, too, and not only frames.
         socket.set_error_filter_accept_all()?;
         Ok(Self { socket: Arc::new(socket), start: Instant::now() })
     }
@@ -56,7 +56,7 @@ impl Interface {
     /// Sends a frame.
     ///
     /// # Errors
-    /// The interface is down or gone, or its queue has no room for a second: nobody on the bus acknowledges.
+    /// The interface is down or gone, or its queue has no room for a second: no node on the bus acknowledges.
     pub fn put(&self, frame: &Frame) -> io::Result<()> {
         let Some(frame) = to_kernel(frame) else { return Ok(()) };
         let until = Instant::now() + PATIENCE;
@@ -103,7 +103,7 @@ fn to_kernel(frame: &Frame) -> Option<Kernel> {
     }
 }
 
-/// What the kernel tells.
+/// What the kernel reports.
 fn of_kernel(frame: &Kernel) -> What {
     let standard = |made: fn(CanId, &Kernel) -> Option<Frame>| {
         let id = u16::try_from(frame.raw_id()).ok().and_then(CanId::new).filter(|_| !frame.is_extended())?;
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn other_frames_are_told_as_what_they_are() {
+    fn other_frames_are_reported_as_what_they_are() {
         let wide = ExtendedId::new(0x12345).unwrap();
         let data = CanDataFrame::new(wide, &[1, 2]).map(Kernel::Data).unwrap();
         assert_eq!(of_kernel(&data), What::Frame(CanFrame::Extended { id: 0x12345, length: 2 }));

@@ -142,9 +142,9 @@ pub(crate) struct C;
 
 impl Language for C {
     fn identifier(&self, _: ScopeKind, role: Role, words: &Words) -> String {
-        // Names of a scope stand behind that of the device and of the scope.
+        // Names of a scope follow that of the device and of the scope.
         match role {
-            // No such word is written in capitals.
+            // No such word is written in upper case.
             Role::Variant | Role::Constant => words.screaming(),
             Role::Type | Role::Function | Role::Field => {
                 let name = words.snake();
@@ -154,7 +154,7 @@ impl Language for C {
     }
 
     fn companion(&self, _: Companion, _: &str) -> Option<String> {
-        // What is done with an entry stands before its name: `pmc_get_speed`, `pmc_set_speed`.
+        // What is done with an entry is before its name: `pmc_get_speed`, `pmc_set_speed`.
         None
     }
 

@@ -12,7 +12,7 @@ pub(super) struct Integer {
 }
 
 impl Integer {
-    /// The type that carries the values of a data type; `None` of what is no integer.
+    /// The type that carries the values of a data type; `None` of what is not an integer.
     pub(super) fn of(data_type: DataType) -> Option<Self> {
         let bits = data_type.bits().filter(|_| data_type.is_integer())?;
         let bits = match bits {
@@ -71,7 +71,8 @@ pub(super) fn factor(value: i128) -> String {
     Integer { signed, bits }.literal(value)
 }
 
-/// A `float` in brackets, with the fewest digits that make this number; `None` of what is no number or none that ends.
+/// A `float` in brackets, with the fewest digits that make this number; `None` of what is not a number or none that
+/// ends.
 pub(super) fn real32(number: f64) -> Option<String> {
     #[expect(clippy::cast_possible_truncation, reason = "the nearest value that the type has")]
     let single = number as f32;

@@ -19,7 +19,7 @@ pub(super) fn prefix(key: &str) -> String {
     if TAKEN.contains(&first) { format!("device_{name}") } else { name }
 }
 
-/// The names of one device: what kind of thing they are stands behind the device.
+/// The names of one device: what kind of thing they are follows the device.
 pub(super) struct Names {
     lower: String,
     upper: String,
@@ -54,8 +54,8 @@ impl Names {
     }
 }
 
-/// All names that files of one set define, each once. What different files of a device say in the same way, an include guard for one, is told
-/// apart by its kind.
+/// All names that files of one set define, each once. What different files of a device say in the same way, an include
+/// guard for one, is reported apart by its kind.
 #[derive(Default)]
 pub(super) struct Register(BTreeMap<String, String>);
 
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn a_device_and_a_kind_stand_before_every_name() {
+    fn a_device_and_a_kind_are_before_every_name() {
         let names = Names { lower: "pmc".to_owned(), upper: "PMC".to_owned() };
         assert_eq!(names.macro_of(&["LOW", "register_"]), "PMC_LOW_REGISTER");
         assert_eq!(names.function(&["get", "register_"]), "pmc_get_register");

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use od_gen::plan::{Plan, PlannedEntry};
 
-/// When the entry can be written, and what carries it: sentences, each with a blank before it.
+/// When the entry can be written, and what carries it: sentences, each with a space before it.
 pub(super) fn relations(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> String {
     let mut text = String::new();
     if let Some(condition) = &entry.entry.writable_when {

@@ -41,7 +41,7 @@ impl Text {
         }
     }
 
-    /// What stands between two lines, one level further in.
+    /// What is between two lines, one level further in.
     pub(super) fn block(&mut self, open: &str, close: &str, inside: impl FnOnce(&mut Self)) {
         self.line(open);
         self.level += 1;
@@ -55,7 +55,7 @@ impl Text {
         self.comment_with("/**", text);
     }
 
-    /// A comment that stands for itself.
+    /// A comment of its own.
     pub(super) fn comment(&mut self, text: &str) {
         self.comment_with("/*", text);
     }
@@ -150,7 +150,7 @@ pub(super) fn head(text: &mut Text, about: &str) {
     text.comment(&format!("{about}\n{GENERATED}"));
 }
 
-/// A header: what it is about, and what stands between the lines that keep it from being read twice.
+/// A header: what it is about, and what is between the lines that keep it from being read twice.
 pub(super) fn header(about: &str, guard: &str, inside: &Text) -> Text {
     let mut text = Text::default();
     head(&mut text, about);

@@ -47,7 +47,7 @@ impl NodesArgs {
     }
 }
 
-/// Where a device tells its serial number.
+/// Where a device reports its serial number.
 const SERIAL_NUMBER: EntryId = EntryId { index: Index(0x1018), sub: SubIndex(4) };
 
 /// Nodes, and what their devices belong to.

@@ -8,5 +8,5 @@ pub(crate) const ERRORS: u8 = 1;
 pub(crate) const USAGE: u8 = 2;
 /// `odgen diff --exit-code` found what it looked for, or `odgen node compare` a difference.
 pub(crate) const DIFFERS: u8 = 3;
-/// Somebody interrupted the command before all was done.
+/// The user interrupted the command before all was done.
 pub(crate) const INTERRUPTED: u8 = 130;

@@ -1,4 +1,4 @@
-//! Ctrl-C, for commands that go on until somebody ends them and have something to say then.
+//! Ctrl-C, for commands that go on until the user ends them and have something to say then.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,7 +13,8 @@ use crate::exit::INTERRUPTED;
 pub(crate) struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// From now on Ctrl-C is noted, and a second one ends the program at once. Where the system does not tell, it ends it as ever.
+    /// From now on Ctrl-C is noted, and a second one ends the program at once. Where the system does not report it, it
+    /// ends the program as usual.
     pub(crate) fn noted() -> Self {
         let wanted = Arc::new(AtomicBool::new(false));
         for signal in [SIGINT, SIGTERM] {

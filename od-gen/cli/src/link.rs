@@ -13,7 +13,7 @@ const BAUD: u32 = 115_200;
 pub(crate) enum Side {
     /// Nodes, to which clients come.
     Nodes,
-    /// A master, who goes to an adapter.
+    /// A master, which goes to an adapter.
     Master,
 }
 

@@ -1,4 +1,4 @@
-//! Findings as text for people, where one mistake may stand in hundreds of places.
+//! Findings as text for people, where one mistake may be in hundreds of places.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -23,7 +23,7 @@ impl Most {
         match (self, severity) {
             (Self::OfEds, _) => 3,
             (Self::OfSpecification, Severity::Error | Severity::Warning) => 10,
-            // Notes of a specification are a list that somebody asked for; a list of more is one for programs.
+            // Notes of a specification are a list that the user asked for; a list of more is one for programs.
             (Self::OfSpecification, Severity::Note) | (Self::All, _) => 1_000,
         }
     }

@@ -43,7 +43,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
     version,
     after_help = "Exit codes: 0 fine, 1 errors in the input or output not written, 2 wrong command line, \
                   3 what `odgen diff --exit-code` looks for, or `odgen node compare` finds.\n\
-                  `odgen explain OD0507` tells more about a message; `odgen reference` describes the language."
+                  `odgen explain OD0507` says more about a message; `odgen reference` describes the language."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -78,21 +78,21 @@ enum Command {
     Dbc(dbc::DbcArgs),
     /// Make the DCF of one node, with parameter values of your own
     Dcf(dcf::DcfArgs),
-    /// Tell what the frames of a recorded trace say: services, entries and values in units, states, errors
+    /// Print what the frames of a recorded trace mean: services, entries and values in units, states, errors
     Decode(decode::DecodeArgs),
-    /// Tell what differs between two dictionaries, and what each change breaks
+    /// Show what differs between two dictionaries, and what each change breaks
     Diff(diff::DiffArgs),
     /// Print the resolved model as JSON
     Dump(dump::DumpArgs),
     /// Make the reference documentation: the manual's tables and a reference of all objects, as Markdown or HTML
     Docs(docs::DocsArgs),
-    /// List where the printed manual says something else than the specification
+    /// List where the printed manual differs from the specification
     Errata(errata::ErrataArgs),
-    /// Make a specification of an EDS, DCF, XDD or XDC
+    /// Make a specification from an EDS, DCF, XDD or XDC
     Import(import::ImportArgs),
-    /// Put right what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
+    /// Fix what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
     Fix(fix::FixArgs),
-    /// Lay out specifications: indentation and blanks; comments, order and facts stay
+    /// Lay out specifications: indentation and spaces; comments, order and facts stay
     Fmt(fmt::FmtArgs),
     /// Serve an editor: the Language Server Protocol on standard input and output
     Lsp(lsp::LspArgs),
@@ -100,15 +100,15 @@ enum Command {
     New(new::NewArgs),
     /// Talk to nodes on a bus, by an adapter with SLCAN (TCP or serial) or a CAN interface
     Node(node::NodeArgs),
-    /// Make a parameter file of a DCF: the values that differ from the defaults, by name and in units
+    /// Make a parameter file from a DCF: the values that differ from the defaults, by name and in units
     Params(params::ParamsArgs),
     /// Work on a plant file: the nodes of many machines, with values inherited from type, site and machine
     Plant(plant::PlantArgs),
-    /// Be nodes on a bus, without hardware, for whoever comes by SLCAN (TCP or a pseudo-terminal) or a CAN interface
+    /// Run virtual nodes that any client can reach by SLCAN (TCP or a pseudo-terminal) or a CAN interface
     Serve(serve::ServeArgs),
     /// Make Structured Text (IEC 61131-3) for PLC programs: constants, enums, bits, conversions to units and back, PDOs
     St(st::StArgs),
-    /// Tell what a message code means and what to do about it
+    /// Explain what a message code means and what to do about it
     Explain(explain::ExplainArgs),
     /// Print a library of standard objects, or the names of all
     Library(library::LibraryArgs),

@@ -2,7 +2,8 @@
 
 use clap::{Args, ValueEnum};
 
-/// How messages are written, said behind the command. `odgen docs` and `odgen diff` have formats of their own; there it is said before the command.
+/// How messages are written, said after the command. `odgen docs` and `odgen diff` have formats of their own; there it
+/// is said before the command.
 #[derive(Debug, Args)]
 pub(crate) struct Messages {
     /// How messages are written

@@ -43,7 +43,7 @@ pub(crate) fn not_written(error: &WriteError) -> Diagnostic {
             "files are named after the specification and the keys of its devices: rename what this name comes from"
         }
         Reason::Clash(_) => {
-            "give devices and specifications names that differ by more than capitals, or write into different directories with `--out`"
+            "give devices and specifications names that differ by more than upper and lower case, or write into different directories with `--out`"
         }
         _ => error.advice(),
     };
@@ -83,14 +83,14 @@ fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {
     text
 }
 
-/// The name of the file to write, which is none of those that were read.
+/// The name of the file to write, which is not one of those that were read.
 pub(crate) fn file_name(path: &Path, what: &str, read: &[PathBuf]) -> Result<String, Diagnostic> {
     let refuse = |problem: &str, help: &str| {
         let message = format!("cannot write `{}`: {problem}", path.display());
         Err(Diagnostic::without_place(codes::WRITE_FAILED, message).help(help.to_owned()))
     };
     let Some(name) = path.file_name() else {
-        return refuse("it names no file", "write the file's name behind the directory");
+        return refuse("it names no file", "write the file's name after the directory");
     };
     let Some(name) = name.to_str() else {
         return refuse("its name is not Unicode", "choose another name");

@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn items_are_worked_on_at_the_same_time() {
         let workers = thread::available_parallelism().map_or(1, NonZero::get);
-        // Nobody passes before all have come.
+        // No thread passes before all have come.
         let barrier = Barrier::new(workers);
         let mut results = 0;
         in_order(&vec![(); workers], |()| barrier.wait(), |_, ready| results += ready.len());

@@ -7,14 +7,14 @@ use std::io::{IsTerminal as _, Stderr, Write};
 pub(crate) enum Audience {
     /// People.
     People,
-    /// Programs, which want nothing beside the messages.
+    /// Programs, which want only the messages.
     Programs,
 }
 
-/// Back to the first column, and nothing behind it.
+/// Back to the first column, and nothing after it.
 const EMPTY_LINE: &str = "\r\u{1b}[2K";
 
-/// The line; nothing where nobody would see it.
+/// The line; nothing where it would not be seen.
 pub(crate) struct Progress<W = Stderr> {
     terminal: W,
     done: &'static str,

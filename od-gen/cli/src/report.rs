@@ -36,7 +36,7 @@ pub(crate) struct Report {
 enum Shows {
     /// Each warning.
     Warnings,
-    /// How many there are, in one line: who reads it cannot mend them.
+    /// How many there are, in one line: its reader cannot fix them.
     Count,
 }
 
@@ -139,9 +139,9 @@ impl Report {
         };
         let summary = render::summary(diagnostics);
         if self.format == Format::Human && !summary.is_empty() {
-            // An error before a warning, wherever it stands.
+            // An error before a warning, wherever it is.
             let first = diagnostics.iter().min_by_key(|one| one.severity()).map_or("", |first| first.code.id);
-            let _ = writeln!(text, "{summary}; `odgen explain {first}` tells more");
+            let _ = writeln!(text, "{summary}; `odgen explain {first}` says more");
         }
         self.write(&text);
     }
@@ -159,7 +159,7 @@ impl Report {
         }
     }
 
-    /// Tells people what the command does unasked; programs that read JSON did not ask.
+    /// Reports to people what the command does unasked; not to programs that read JSON.
     pub(crate) fn note(&self, text: &str) {
         if self.format != Format::Json {
             self.write(&format!("note: {text}\n"));
@@ -178,7 +178,8 @@ impl Report {
         Some((used?, sources))
     }
 
-    /// [`compile_with_sources`](Self::compile_with_sources), for somebody who has more to say and shows it together.
+    /// [`compile_with_sources`](Self::compile_with_sources), for a caller that adds messages and shows all of them
+    /// together.
     pub(crate) fn compile_unshown(&self, path: &Path) -> (Option<Used>, Diagnostics, SourceMap) {
         let mut sources = SourceMap::new();
         let mut compiled = compile_file(path, &mut sources, &mut self.loader());
@@ -205,7 +206,7 @@ impl Report {
         }
     }
 
-    /// Tells what an XDD of a device, or an XDC of a node, does without.
+    /// Reports what an XDD of a device, or an XDC of a node, does without.
     pub(crate) fn not_in_xdd(&self, device: &Dictionary, node: Option<&Commissioning>) {
         let further = device.further.as_ref();
         let (keys, modules) = further.map_or((0, 0), |further| (further.count(), further.modules.len()));
@@ -327,7 +328,7 @@ fn write_out(bytes: &[u8]) -> u8 {
     out.write_all(bytes).and_then(|()| out.flush()).map_or_else(|error| not_printed(&error), |()| SUCCESS)
 }
 
-/// The exit code when a result cannot be written; a reader that went away early is no error.
+/// The exit code when a result cannot be written; a reader that went away early is not an error.
 pub(crate) fn not_printed(error: &std::io::Error) -> u8 {
     // Once: a command that continues prints more.
     static IS_REPORTED: AtomicBool = AtomicBool::new(false);

@@ -49,7 +49,7 @@ impl ParameterFiles {
         }
     }
 
-    /// The node-ID: that of the command line, or else of the last file that states one. Who says otherwise is told.
+    /// The node-ID: that of the command line, or else of the last file that states one. Another one is reported.
     pub(crate) fn node(&self, on_the_command_line: Option<u8>, report: &Report) -> Option<u8> {
         let stated = || self.files.iter().filter_map(|(path, file)| Some((path, file.node?.value)));
         let last = stated().next_back().map(|(_, node)| node);
@@ -70,7 +70,7 @@ impl ParameterFiles {
         self.files.iter().rev().find_map(|(_, file)| file.serial_number())
     }
 
-    /// Takes what the files say about the node beside its node-ID and its values, the last one over the others.
+    /// Takes what the files say about the node in addition to its node-ID and its values, the last one over the others.
     pub(crate) fn settle(
         &self,
         device: &Dictionary,

@@ -116,7 +116,7 @@ impl Place {
         }
     }
 
-    /// By which places are ordered: objects and their entries stand together.
+    /// By which places are ordered: objects and their entries are together.
     fn order(&self) -> (u8, u16, u16, u16, &str) {
         match self {
             Self::System => (0, 0, 0, 0, ""),
@@ -308,7 +308,7 @@ pub(super) fn tidy(mut changes: Vec<Change>) -> Vec<Change> {
         if change.consequences.is_empty() {
             change.follows([Consequence::new(Class::Documents, "nothing that a program uses")]);
         }
-        // What documents say is no news beside a heavier consequence.
+        // What documents say is not news next to a heavier consequence.
         if change.class() != Class::Documents {
             change.consequences.retain(|consequence| consequence.class != Class::Documents);
         }

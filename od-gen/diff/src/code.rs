@@ -22,7 +22,7 @@ pub(super) struct Code {
 struct EntryCode {
     /// How it is read.
     call: Option<String>,
-    /// Its names where entries of many objects stand together.
+    /// Its names where entries of many objects are together.
     names: [String; 2],
     /// What its values are.
     values: [String; Part::ALL.len()],
@@ -76,7 +76,7 @@ enum Part {
     Type,
     /// The unit around it.
     Unit,
-    /// The special values beside it.
+    /// The special values in addition to it.
     Special,
     /// How code sets it, if it can.
     Setter,

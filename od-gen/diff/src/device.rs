@@ -21,7 +21,7 @@ impl Devices<'_> {
         changes.extend(self.file());
         let name = Change::text(Place::Device, Fact::Name, &self.old.name, &self.new.name);
         let name = name.filter(|_| self.scope.is_everything());
-        changes.extend(name.map(|change| change.so(Class::Documents, "the product name stands in the EDS")));
+        changes.extend(name.map(|change| change.so(Class::Documents, "the product name is in the EDS")));
         changes.extend(texts(&Place::Device, Fact::About, &self.old.about, &self.new.about, self.language));
         changes
     }

@@ -126,7 +126,7 @@ impl Pair<'_> {
         if before == after {
             return None;
         }
-        // In an EDS `rw`, `rwr` and `rww` tell the PDO mapping, which is a fact of its own.
+        // In an EDS `rw`, `rwr` and `rww` state the PDO mapping, which is a fact of its own.
         if !self.scope.is_everything() && before.0.is_writable() && after.0.is_writable() {
             let same_reading = before.0.is_readable() == after.0.is_readable();
             if same_reading && self.scope.mapping(self.old) != self.scope.mapping(self.new) {

@@ -45,7 +45,7 @@ impl Devices<'_> {
         let has = |index| self.old.objects.contains_key(&index) && self.new.objects.contains_key(&index);
         let (place, front) = match owner(section) {
             Owner::File => (Place::Device, format!("[{section}] ")),
-            // What is there on one side only is told as that.
+            // What is there on one side only is reported as that.
             Owner::Object(index) if has(index) => (Place::Object(index), String::new()),
             Owner::Entry(id) if self.old.entry(id).is_some() && self.new.entry(id).is_some() => {
                 (Place::entry(id), String::new())

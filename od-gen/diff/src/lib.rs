@@ -101,7 +101,7 @@ pub struct DeviceDifference {
     pub name: String,
     /// The changes, by place.
     pub changes: Vec<Change>,
-    /// Which version numbers tell of them.
+    /// Which version numbers report them.
     pub proposals: Proposals,
     /// What could not be judged.
     pub unknown: Vec<Unknown>,
@@ -131,7 +131,7 @@ impl Difference {
 /// Compares two systems.
 ///
 /// # Errors
-/// Which device is meant cannot be told.
+/// It is unknown which device is meant.
 pub fn compare(question: &Question<'_>) -> Result<Difference, Unpaired> {
     let &Question { old, new, scope, .. } = question;
     let pairs = pairs::pair(question)?;

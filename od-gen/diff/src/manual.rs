@@ -1,4 +1,4 @@
-//! The printed manual that a specification stands for: issues, glossary, sections, errata. All of it is for people.
+//! The printed manual that a specification represents: issues, glossary, sections, errata. All of it is for people.
 
 use std::collections::BTreeMap;
 

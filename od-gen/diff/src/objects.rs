@@ -42,7 +42,7 @@ impl Devices<'_> {
                 (None, Some(new)) => changes.push(
                     Change::added(Place::Object(index), object(new))
                         .named(&new.name)
-                        .so(Class::Addition, "nobody uses it yet"),
+                        .so(Class::Addition, "nothing uses it yet"),
                 ),
                 (None, None) => {}
             }
@@ -96,7 +96,7 @@ impl Devices<'_> {
                 ),
                 (None, Some(entry)) => changes.push(
                     Change::added(Place::entry(id), words::entry(entry))
-                        .so(Class::Addition, "nobody uses it yet"),
+                        .so(Class::Addition, "nothing uses it yet"),
                 ),
                 (None, None) => {}
             }
@@ -136,7 +136,7 @@ impl Devices<'_> {
             links.map(|change| change.so(Class::Documents, "a hint where to look; access is the same")),
         ];
         let warning = texts(&place, Fact::Warning, &old.warning, &new.warning, self.language);
-        // What is said about a PDO is told with its number.
+        // What is said about a PDO is reported with its number.
         let is_pdo = |object: &Object| object.role() == Role::PdoCommunication;
         let about = if is_pdo(old) && is_pdo(new) {
             Vec::new()
@@ -203,7 +203,7 @@ fn object(object: &Object) -> String {
     }
 }
 
-/// Whether the default of sub-index 0 is on both sides the highest sub-index, which the entries tell.
+/// Whether the default of sub-index 0 is on both sides the highest sub-index, which the entries show.
 fn is_count(old: &Object, new: &Object, sub: SubIndex) -> bool {
     let counts = |object: &Object| {
         let highest = object.entries.last().map(|entry| i128::from(entry.sub.0));

@@ -84,7 +84,7 @@ pub(super) fn pair<'a>(question: &Question<'a>) -> Result<Pairs<'a>, Unpaired> {
     let came = new.iter().filter(|device| other(device, &old).is_none()).map(|device| {
         Change::added(Place::Device, &device.name)
             .named(&device.key)
-            .so(Class::Addition, "nobody uses it yet")
+            .so(Class::Addition, "nothing uses it yet")
     });
     Ok(Pairs { unpaired: gone.chain(came).collect(), pairs })
 }

@@ -6,7 +6,7 @@ use od_spec::model::{Dictionary, System};
 use super::change::{Change, Class};
 use super::scope::Scope;
 
-/// The numbers that tell tools and masters of a change.
+/// The numbers that show a change to tools and masters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Proposals {
@@ -34,9 +34,9 @@ pub type Parts = (u16, u16);
 /// What to do with a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Advice {
-    /// Nothing has to be told.
+    /// Nothing has to be stated.
     Keep,
-    /// The new file tells it.
+    /// The new file states it.
     Raised,
     /// Write this one.
     Raise(Parts),
@@ -65,7 +65,7 @@ pub(super) fn proposals<'a>(
     let file = match class {
         None => Step::None,
         Some(Class::Plc) => Step::First,
-        // Whatever was compared stands in both files.
+        // Whatever was compared is in both files.
         Some(_) if !scope.is_everything() || shows_in_eds(old, new) => Step::Second,
         Some(_) => Step::None,
     };
@@ -86,7 +86,7 @@ pub(super) fn proposals<'a>(
     }
 }
 
-/// Whether the EDS of a device is another one, but for what it says about its own version.
+/// Whether the EDS of a device is another one, except for what it says about its own version.
 fn shows_in_eds(old: (&System, &Dictionary), new: (&System, &Dictionary)) -> bool {
     let mut comparable = new.1.clone();
     comparable.key.clone_from(&old.1.key);

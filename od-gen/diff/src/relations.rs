@@ -1,4 +1,4 @@
-//! What a device has beside its objects: error codes, state machines, conditions between entries.
+//! What a device has in addition to its objects: error codes, state machines, conditions between entries.
 
 use std::collections::BTreeSet;
 
@@ -22,7 +22,7 @@ pub(super) struct Systems<'a> {
 }
 
 impl Systems<'_> {
-    /// What differs beside the objects.
+    /// What differs in addition to the objects.
     pub(super) fn relations(self) -> Vec<Change> {
         let mut changes = self.any_error();
         changes.extend(self.errors());
@@ -60,7 +60,7 @@ impl Systems<'_> {
                 (None, Some(after)) => changes.push(
                     Change::added(place, &after.name)
                         .named(&after.name)
-                        .so(Class::Addition, "nobody waits for it yet"),
+                        .so(Class::Addition, "nothing waits for it yet"),
                 ),
                 (None, None) => {}
             }
@@ -86,7 +86,7 @@ impl Systems<'_> {
         let found = name.into_iter().chain(priority).chain(reaction).chain(option_code);
         let kinds = |error: &ErrorCode| format!("0x{:02X}", error.register());
         let register = Change::text(place.clone(), Fact::Register, &kinds(before), &kinds(after))
-            .map(|change| change.so(Class::Plc, "1001h and emergency messages tell another kind of error"));
+            .map(|change| change.so(Class::Plc, "1001h and emergency messages report another kind of error"));
         let treats = |error: &ErrorCode, key: &str| error.treated_by.includes(key);
         let treated = (treats(before, &self.devices.old.key), treats(after, &self.devices.new.key));
         let yes_no = |is_it: bool| if is_it { "as stated" } else { "otherwise" };
@@ -185,7 +185,7 @@ impl Systems<'_> {
                         .with(self.gone()),
                 ),
                 (None, Some(after)) => changes.push(
-                    Change::added(place, shown_in(&after)).so(Class::Addition, "nobody follows it yet"),
+                    Change::added(place, shown_in(&after)).so(Class::Addition, "nothing follows it yet"),
                 ),
                 (None, None) => {}
             }
@@ -215,7 +215,7 @@ impl Systems<'_> {
         };
         let added = [
             (Class::Behaviour, "a program meets a state that it does not know"),
-            (Class::Addition, "nobody gives it yet"),
+            (Class::Addition, "nothing gives it yet"),
         ];
         let lists = [("state", state(old), state(new)), ("command", command(old), command(new))];
         for ((word, old, new), (class, because)) in lists.into_iter().zip(added) {

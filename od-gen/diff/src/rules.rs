@@ -2,10 +2,10 @@
 //!
 //! | fact | change | class | why |
 //! |---|---|---|---|
-//! | presence | added | addition | nobody uses what was not there; a match over all entries in firmware has to name it |
+//! | presence | added | addition | nothing uses what was not there; a match over all entries in firmware has to name it |
 //! | | removed | plc, firmware | SDO access is aborted, mapping refused; the accessor is gone |
 //! | name | other words | plc, firmware | tools make symbols from `ParameterName`; identifiers are made from it |
-//! | | capitals, punctuation | documents | the symbols stay |
+//! | | case, punctuation | documents | the symbols stay |
 //! | object type | VAR or DOMAIN against ARRAY or RECORD | plc | sub-index 0 is a value on one side and a count on the other |
 //! | | ARRAY against RECORD | documents | every value keeps its address |
 //! | data type | any | plc | another length or sign on the bus |
@@ -15,7 +15,7 @@
 //! | PDO mapping | direction lost, gained | plc, addition | a mapping that a project downloads is refused |
 //! | default | COB-ID | plc | messages that a project waits for have another identifier |
 //! | | identity, device type | plc | masters compare them at start-up |
-//! | | any other | behaviour | what the device does until somebody writes the entry |
+//! | | any other | behaviour | what the device does until the entry is written |
 //! | limits | narrower on a writable entry | plc | values that were accepted are refused |
 //! | | wider on a writable entry | addition | |
 //! | | wider on a read-only entry | behaviour | it may have values that it could not have before |
@@ -26,7 +26,7 @@
 //! | | added where it was an ordinary value | behaviour | |
 //! | | added outside the limits | addition | |
 //! | enum value, bit | gone, or with the meaning of another one | plc | the number means something else |
-//! | | another name | behaviour | the same thing may be meant or not; this cannot be told |
+//! | | another name | behaviour | the same thing may be meant or not; this cannot be known |
 //! | | added | addition | |
 //! | active level | any | plc | 1 means what 0 meant |
 //! | edge | any | behaviour | the same write may trigger or not |
@@ -72,7 +72,7 @@ fn one(class: Class, because: &'static str) -> Consequences {
     vec![Consequence::new(class, because)]
 }
 
-/// Whether two names become the same symbols: they differ in capitals and punctuation only.
+/// Whether two names become the same symbols: they differ only in case and punctuation.
 pub(super) fn same_words(one: &str, other: &str) -> bool {
     Words::of(one) == Words::of(other)
 }
@@ -183,7 +183,7 @@ pub(super) fn identity() -> Consequences {
 
 /// 1018h.3.
 pub(super) fn revision() -> Consequences {
-    one(Class::Addition, "it tells that something changed")
+    one(Class::Addition, "it shows that something changed")
 }
 
 /// A limit: how far the allowed values reach on one side, where more is further out.

@@ -10,7 +10,7 @@ pub enum Scope {
     Everything,
     /// What an EDS states: one side is one.
     WhatAnEdsStates,
-    /// What a DCF states, in which the node-ID is no formula but a number: one side is one, and the other is not.
+    /// What a DCF states, in which the node-ID is not a formula but a number: one side is one, and the other is not.
     WhatADcfStates,
 }
 
@@ -38,7 +38,7 @@ impl Scope {
         if self.is_everything() { (entry.access, entry.locked) } else { (entry.eds.access, false) }
     }
 
-    /// The PDOs into which an entry may be mapped. In an EDS the access tells the direction.
+    /// The PDOs into which an entry may be mapped. In an EDS the access states the direction.
     pub(super) fn mapping(self, entry: &Entry) -> PdoMapping {
         if self.is_everything() || entry.pdo == PdoMapping::None {
             return entry.pdo;

@@ -361,7 +361,7 @@ fn part(first: u8, last: u8) -> String {
 fn support(before: bool, after: bool) -> Consequences {
     match (before, after) {
         (true, false) => vec![Consequence::new(Class::Plc, "the device does not take or send it any more")],
-        (false, true) => vec![Consequence::new(Class::Addition, "nobody used it")],
+        (false, true) => vec![Consequence::new(Class::Addition, "nothing used it")],
         (true, true) | (false, false) => {
             vec![Consequence::new(Class::Documents, "the device does not have it")]
         }

@@ -18,7 +18,7 @@ pub struct Selection<'a> {
     pub node: Option<u8>,
     /// The node of the DCF that the system was read from, with its values; it has the node-ID above, if there is one.
     pub configured: Option<&'a Commissioning>,
-    /// Also an XDD of each device, and an XDC beside each DCF.
+    /// Also an XDD of each device, and an XDC next to each DCF.
     pub xdd: bool,
 }
 

@@ -1,7 +1,8 @@
 //! What different tools write into a node when it boots, made from the same DCF: in which order, and what of it is dangerous.
 //!
-//! CiA 306 says what stands in a DCF, and not what a tool does with it. A PLC that creates an SDO for every entry writes the
-//! defaults, too; a configuration tool writes what differs; a master with a concise DCF writes what was made for it.
+//! CiA 306 says what is in a DCF, and not what a tool does with it. A PLC that creates an SDO for every entry writes
+//! the defaults, too; a configuration tool writes what differs; a master with a concise DCF writes what was made for
+//! it.
 
 use std::fmt::Write as _;
 
@@ -52,11 +53,11 @@ pub enum Mark {
     Locked,
     /// The entry triggers a command, and is flagged as not to be written.
     Command,
-    /// Nobody set it, and the device keeps it: the default goes over whatever was stored.
+    /// It was not set, and the device keeps it: the default goes over whatever was stored.
     OverStored,
-    /// Nobody set it, and it shows an entry that was set before: the default goes over that.
+    /// It was not set, and it shows an entry that was set before: the default goes over that.
     OverSet,
-    /// Nobody set it: the default is written.
+    /// It was not set: the default is written.
     Default,
     /// It was set, to another value than the default, and goes over what the device keeps.
     SetStored,
@@ -188,8 +189,8 @@ fn is_set_before(device: &Dictionary, node: &Commissioning, id: EntryId) -> bool
     node.values.keys().any(|set| *set < id && holder(*set) == holder(id))
 }
 
-/// Whether the entry is a parameter of the application, which somebody may have measured or set; communication parameters are
-/// the PLC's affair.
+/// Whether the entry is a parameter of the application, which a user may have measured or set; communication parameters
+/// are the PLC's affair.
 const fn is_kept(stored: Storage) -> bool {
     match stored {
         Storage::Application | Storage::Manufacturer | Storage::Remanent => true,
@@ -216,7 +217,7 @@ pub fn explain(system: &System, device: &Dictionary, node: &Commissioning) -> Re
         }
     }
     out.push_str(
-        "\n*  set, and not the default; s: over a value that the device keeps\n!! locked, a command, or a default that nobody set and that goes over what was set or is kept\n",
+        "\n*  set, and not the default; s: over a value that the device keeps\n!! locked, a command, or a default that was not set and that goes over what was set or is kept\n",
     );
     Ok(out)
 }
@@ -248,9 +249,9 @@ fn line(device: &Dictionary, node: &Commissioning, write: &BootWrite, out: &mut 
         Mark::Locked => format!("LOCKED, factory data; {}", default()),
         Mark::Command => "a command, which tools must not write".to_owned(),
         Mark::OverStored => {
-            format!("nobody set it; {}", WORDING.storage(entry.stored))
+            format!("not set; {}", WORDING.storage(entry.stored))
         }
-        Mark::OverSet => "nobody set it, and it goes over the value that was set before".to_owned(),
+        Mark::OverSet => "not set, and it goes over the value that was set before".to_owned(),
         Mark::Default => "the default".to_owned(),
         Mark::SetStored => format!("set; {}; {}", default(), WORDING.storage(entry.stored)),
         Mark::Set => format!("set; {}", default()),

@@ -9,7 +9,7 @@ pub const COMMANDS: [(u8, &str); 5] = [
     (130, "reset communication"),
 ];
 
-/// States, as boot-up, heartbeat and node guarding tell them in seven bits.
+/// States, as boot-up, heartbeat and node guarding report them in seven bits.
 pub const STATES: [(u8, &str); 4] =
     [(0, "boot-up"), (4, "stopped"), (5, "operational"), (127, "pre-operational")];
 

@@ -1,5 +1,5 @@
-//! An EDS or DCF as a specification: the model as text, with what was wrong beside the object that it was wrong at, and what
-//! has no place at the end.
+//! An EDS or DCF as a specification: the model as text, with what was wrong next to the object that it was wrong at,
+//! and what has no place at the end.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -49,7 +49,7 @@ pub fn import(
     let file = sources.file(root);
     // As it was compiled: a specification may not hold what turns text.
     let text = straight(file.text());
-    // What an XDD says beside its objects is no comment.
+    // What an XDD says in addition to its objects is not a comment.
     let is_xdd = is_xdd(file.name(), &text);
     let document = if is_xdd { Document::default() } else { Document::scan(root, &text) };
     let mut options =
@@ -130,7 +130,8 @@ fn is_property(text: &str) -> bool {
     text.split_once('=').is_some_and(|(key, _)| EditorProperty::of_name(key.trim()).is_some())
 }
 
-/// What stands at most of the entries, such as a maker's key that always has the same value, and at how many: it is said once.
+/// What is at most of the entries, such as a maker's key that always has the same value, and at how many: it is said
+/// once.
 fn usual<'t>(
     remarks: &[(Option<Place>, Cow<'t, str>)],
     device: &Dictionary,
@@ -153,8 +154,8 @@ fn changes_what_is_read(finding: &Diagnostic) -> bool {
         && finding.edits.is_empty()
 }
 
-/// Whether a finding is about an entry of object links that is no index. In a list of objects it says nothing that the
-/// objects do not.
+/// Whether a finding is about an entry of object links that is not an index. In a list of objects it says nothing that
+/// the objects do not.
 fn loses_a_link(document: &Document<'_>, finding: &Diagnostic) -> bool {
     let place = finding.labels.first().map(|label| label.span);
     finding.code == NO_INDEX && place.is_some_and(|place| document.owner(place) != Owner::File)
@@ -188,7 +189,7 @@ fn node_values(compiled: &Compiled, sources: &SourceMap, system: &System, device
     let mut values = NodeValues::default();
     let Some(node) = compiled.node.as_ref().map(|node| node.at(None)) else { return values };
     let words = Wording::english(Notation::Diagnostic);
-    // Places in the settings are none in the file.
+    // Places in the settings are not places in the file.
     let mut sources = sources.clone();
     let mut settings = Vec::new();
     for (id, value) in &node.values {

@@ -34,7 +34,7 @@ pub struct ParameterText {
 pub struct About<'a> {
     /// Everything that the specification describes.
     pub system: &'a System,
-    /// The texts that it was read from: places in a parameter file are none in them.
+    /// The texts that it was read from: places in a parameter file are not places in them.
     pub sources: &'a SourceMap,
     /// The device.
     pub device: &'a Dictionary,
@@ -44,7 +44,7 @@ pub struct About<'a> {
     pub node_id: Option<u8>,
 }
 
-/// The parameter file of a node; `left_out` is what is known already not to stand in it.
+/// The parameter file of a node; `left_out` is what is already known not to be in it.
 pub fn write(about: About<'_>, node: &Commissioning, left_out: Vec<String>) -> ParameterText {
     let mut node = node.clone();
     let mut left_out = left_out;

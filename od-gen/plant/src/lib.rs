@@ -32,14 +32,14 @@ pub const SHEET: &str = "values.csv";
 /// The name of the workbook with the same table.
 pub const WORKBOOK: &str = "values.xlsx";
 
-/// What nodes have in common that are alike and stand at positions of one name: one piece of work.
+/// What nodes have in common that are alike and are at positions of one name: one piece of work.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Job {
     class: usize,
     position: String,
 }
 
-/// The files of a [`Job`], but for what single nodes have of their own.
+/// The files of a [`Job`], except for what single nodes have of their own.
 #[derive(Debug, Clone)]
 pub struct Made {
     dcf: DcfPieces,
@@ -59,7 +59,7 @@ fn job(node: &PlantNode) -> Job {
 /// Does a job; the order is of no importance. What it has in common with others is in memory once, in the pool.
 ///
 /// # Errors
-/// A value that no entry of the device can have, which rules have told before.
+/// A value that no entry of the device can have, which rules have reported before.
 pub fn make(plant: &Plant, settled: &[Settled], job: &Job, pool: &Pool) -> Result<Made, Box<Diagnostic>> {
     let no_class = || {
         let message = format!("the plant has no class {}", job.class);

@@ -27,7 +27,7 @@ struct Pdo {
 enum Ends {
     /// Nodes, and maybe the master.
     Of(Vec<String>),
-    /// Nobody; the type tells what its master does.
+    /// No node; the type states what its master does.
     Nobody,
     /// No node, and the type says nothing of a master, which so may be there.
     Unstated,
@@ -37,7 +37,7 @@ impl Ends {
     fn words(&self) -> String {
         match self {
             Self::Of(who) => who.join(", "),
-            Self::Nobody => "**nobody**".to_owned(),
+            Self::Nobody => "**no node**".to_owned(),
             Self::Unstated => "(master)".to_owned(),
         }
     }
@@ -56,7 +56,7 @@ pub(super) fn pdos(text: &mut String, plant: &Plant, settled: &[Settled]) {
     if pdos.is_empty() {
         return;
     }
-    text.push_str("\n## PDOs\n\nWho sends and who receives each PDO, and on how many machines.");
+    text.push_str("\n## PDOs\n\nThe sender and the receivers of each PDO, and on how many machines.");
     if pdos.keys().any(|pdo| [&pdo.sent, &pdo.received].contains(&&Ends::Unstated)) {
         text.push_str(
             " In brackets: no node of the machine, so that it can only be the master, of which the type says nothing.",

@@ -120,7 +120,7 @@ fn levels(text: &mut String, plant: &Plant, settled: &[Settled]) {
                 .or_insert(Said { value, nodes: class.count });
         }
     }
-    text.push_str("\n## Values\n\nEach value with the level that gives it, and how many nodes have it in force; what a later level says lies over what an earlier one said.\n");
+    text.push_str("\n## Values\n\nEach value with the level that gives it, and how many nodes have it in force; a later level overrides an earlier one.\n");
     let mut level: Option<(&Level, Option<&str>)> = None;
     for ((layer, id), Said { value, nodes }) in &said {
         let Some(layer) = plant.layers.get(*layer) else { continue };
@@ -151,7 +151,7 @@ fn levels(text: &mut String, plant: &Plant, settled: &[Settled]) {
     }
 }
 
-/// Machines and nodes of which something is said beside values.
+/// Machines and nodes of which something is said in addition to values.
 fn remarks(text: &mut String, plant: &Plant) {
     let mut rows = Vec::new();
     for machine in &plant.machines {

@@ -32,7 +32,7 @@ const VALUE: usize = 6;
 /// A cell of the table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Cell {
-    /// A text, which is no number even if it looks like one: the name of a machine, a value with its unit.
+    /// A text, which is not a number even if it looks like one: the name of a machine, a value with its unit.
     Text(String),
     /// A number.
     Number(i128),

@@ -2,7 +2,8 @@
 //!
 //! Columns are divided by `;`: spreadsheets of the countries that write `0,5` expect it, and the others take it too. The text is
 //! UTF-8 and begins with a byte order mark, without which Excel takes it for the code page of its country. A cell that would be taken
-//! for a formula begins with `'`. What a cell is, every spreadsheet guesses anew; the workbook beside it says so.
+//! for a formula begins with `'`. What a cell is, every spreadsheet guesses anew; the workbook next to it states the
+//! type.
 
 use std::fmt::Write as _;
 

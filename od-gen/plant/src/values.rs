@@ -25,7 +25,7 @@ pub struct PlantValue<'a> {
     pub is_unlocked: bool,
     /// The level that gives it.
     pub from: &'a PlantLayer,
-    /// Where that stands.
+    /// Where that is written.
     pub place: Span,
     /// The levels that said something else before, the first one first, with the places.
     pub over: Vec<(&'a PlantLayer, Span)>,

@@ -121,7 +121,7 @@ fn exact(cell: &Cell) -> Option<i64> {
     }
 }
 
-/// A text as a cell holds it. Line breaks and what XML cannot hold are blanks; a text that is longer
+/// A text as a cell holds it. Line breaks and what XML cannot hold are spaces; a text that is longer
 /// than a cell ends with `…`.
 fn cell_text(text: &str) -> String {
     let is_blank = |c: char| c.is_control() || matches!(c, '\u{FFFE}' | '\u{FFFF}');

@@ -108,7 +108,7 @@ pub(super) fn put(
 
 /// Removes the temporary files that killed runs left in a folder.
 pub(super) fn sweep(folder: &Path, disk: &impl Disk) {
-    // Whoever may write into a folder need not be allowed to list it.
+    // A user who may write into a folder need not be allowed to list it.
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         if entry.file_name().to_str().is_some_and(|name| name.starts_with(TEMPORARY)) {
             let _ = disk.remove(&entry.path());

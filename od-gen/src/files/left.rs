@@ -18,7 +18,8 @@ pub fn left_over<F: OutputFile>(directory: &Path, set: &[F]) -> Result<Vec<Strin
     look(directory, set, &set.iter().map(|file| kind(file.path())).collect())
 }
 
-/// [`left_over`], with the folders that earlier sets had, as the list of the directory tells: what names folders may be gone.
+/// [`left_over`], with the folders that earlier sets had, as the list of the directory states: what names folders may
+/// be gone.
 ///
 /// # Errors
 /// A directory or a file cannot be read.
@@ -71,7 +72,7 @@ pub fn remove(directory: &Path, left: &[String]) -> Result<(), WriteError> {
         let file = directory.join(path);
         Real.remove(&file).map_err(|error| left_error(file, error))?;
     }
-    // Whoever writes a file of such a name later is its owner.
+    // A user who writes a file of such a name later is its owner.
     let (old, file) = (mark::listed(directory), directory.join(mark::LIST));
     if !old.iter().any(|path| left.contains(path)) {
         return Ok(());
@@ -98,7 +99,7 @@ fn kind(path: &str) -> (&str, &str) {
 fn list(directory: &Path, folder: &str, found: &mut Vec<String>) -> io::Result<()> {
     for entry in fs::read_dir(directory.join(folder))? {
         let entry = entry?;
-        // What is not Unicode is no name that a generator gives.
+        // What is not Unicode is not a name that a generator gives.
         let Some(name) = entry.file_name().to_str().map(ToOwned::to_owned) else { continue };
         let path = if folder.is_empty() { name } else { format!("{folder}/{name}") };
         let kind = entry.file_type()?;

@@ -1,4 +1,4 @@
-//! Which files are ours: generated files say so, and those that cannot are listed beside them.
+//! Which files are ours: generated files say so, and those that cannot are listed next to them.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,7 +8,7 @@ use od_spec::eds::MARK;
 
 use crate::artifact::{Artifact, OutputFile};
 
-/// Where a mark stands: among the first bytes.
+/// Where a mark is: among the first bytes.
 pub(super) const HEAD: usize = 1024;
 
 /// Lists the files of a directory that have no mark of their own: what a user's templates print.

@@ -67,7 +67,7 @@ pub enum Reason {
     NotGenerated(Vec<PathBuf>),
     /// Not every system takes its name.
     Name(String),
-    /// On systems that do not tell capitals from small letters this is the same file.
+    /// On systems that do not distinguish upper and lower case this is the same file.
     Clash(PathBuf),
 }
 
@@ -96,7 +96,7 @@ impl std::fmt::Display for WriteError {
             Reason::Name(problem) => write!(f, "cannot write {path}: {problem}"),
             Reason::Clash(other) => {
                 let other = other.display();
-                write!(f, "cannot write {path} beside {other}: some systems take both names for one")
+                write!(f, "cannot write both {path} and {other}: some systems take both names for one")
             }
         }
     }

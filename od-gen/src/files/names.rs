@@ -10,33 +10,33 @@ pub fn name_problem(path: &str) -> Option<String> {
     path.split('/').find_map(part_problem)
 }
 
-/// Two of these paths that are one file on systems which do not tell capitals from small letters.
+/// Two of these paths that are one file on systems which do not distinguish upper and lower case.
 pub fn clash<'a>(paths: impl IntoIterator<Item = &'a str>) -> Option<(&'a str, &'a str)> {
     let mut seen: BTreeMap<String, &str> = BTreeMap::new();
     paths.into_iter().find_map(|path| seen.insert(path.to_lowercase(), path).map(|first| (first, path)))
 }
 
 fn part_problem(part: &str) -> Option<String> {
-    /// What Windows does not take in a name, beside the separators.
+    /// What Windows does not take in a name, in addition to the separators.
     const FORBIDDEN: [char; 8] = ['<', '>', ':', '"', '\\', '|', '?', '*'];
     let shown = part.escape_debug();
     if part.is_empty() {
         return Some("a part of its path has no name".to_owned());
     }
     if part == "." || part == ".." {
-        return Some(format!("`{shown}` is a directory, and no name of a file"));
+        return Some(format!("`{shown}` is a directory, not a file name"));
     }
     if part.starts_with('.') && !part.trim_start_matches('.').contains('.') {
         return Some(format!("there is nothing before the ending of `{shown}`"));
     }
     if part.contains(is_hidden) {
-        return Some(format!("`{shown}` holds a character that nobody sees"));
+        return Some(format!("`{shown}` holds an invisible character"));
     }
     if let Some(c) = part.chars().find(|c| FORBIDDEN.contains(c)) {
         return Some(format!("`{shown}` holds `{c}`, which is not allowed on Windows"));
     }
     if part.ends_with(['.', ' ']) {
-        return Some(format!("`{shown}` ends with a dot or a blank, which Windows leaves out"));
+        return Some(format!("`{shown}` ends with a dot or a space, which Windows leaves out"));
     }
     let before_dot = part.split('.').next().unwrap_or_default().trim_end();
     is_device(before_dot).then(|| format!("Windows keeps the name `{before_dot}` for a device of its own"))
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_that_a_system_does_not_take_are_told() {
+    fn names_that_a_system_does_not_take_are_reported() {
         for wrong in [
             "",
             "..",

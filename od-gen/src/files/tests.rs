@@ -197,7 +197,7 @@ fn a_step_that_fails_leaves_whole_files_and_names_those_that_were_written() {
 }
 
 #[test]
-fn a_first_file_that_fails_leaves_no_folder_behind() {
+fn a_first_file_that_fails_leaves_no_folder() {
     for (at, existing, stays) in
         [(0, "", false), (1, "", false), (2, "", false), (1, "new", true), (3, "", true)]
     {
@@ -271,7 +271,7 @@ fn only_what_says_that_it_is_generated_is_replaced() {
     assert_eq!(tree(&scratch.0), trees(&[("a", "mine"), ("b", "mine too")]));
     let error = write_set(&scratch.0, &new, Existing::None).unwrap_err();
     assert!(matches!(error.reason, Reason::Exists(_)), "{error}");
-    // What has the contents already is nobody's loss.
+    // A file that has the contents already is not written.
     fs::write(scratch.0.join("a"), &new[0].bytes).unwrap();
     fs::write(scratch.0.join("b"), &new[1].bytes).unwrap();
     assert_eq!(
@@ -294,7 +294,7 @@ fn files_without_a_mark_are_listed_and_known_by_it() {
     fs::remove_file(scratch.0.join("y.adoc")).unwrap();
     write_all(&scratch.0, &[plain("x/page.adoc", "3")]).unwrap();
     assert_eq!(mark::listed(&scratch.0), BTreeSet::from(["x/page.adoc".to_owned()]));
-    // A stranger's file of the same kind is none of ours.
+    // A stranger's file of the same kind is not one of ours.
     fs::write(scratch.0.join("y.adoc"), "mine").unwrap();
     assert!(write_all(&scratch.0, &[plain("y.adoc", "4")]).is_err());
 }

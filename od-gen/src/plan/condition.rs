@@ -372,7 +372,7 @@ objects:
     }
 
     #[test]
-    fn what_others_have_or_what_is_too_large_is_told() {
+    fn what_others_have_or_what_is_too_large_is_reported() {
         let mut sources = SourceMap::new();
         let root = sources.add("random.od.yaml", SPECIFICATION);
         let system = compile(&mut sources, root, &mut NoFiles).system.unwrap();

@@ -1,7 +1,7 @@
 //! Which indices have objects, arranged so that the device finds each with one look.
 //!
-//! `firmware_glue::table::Directory` tells how it is searched. Both have to agree on every number here: whoever changes one of
-//! them makes a new layout.
+//! `firmware_glue::table::Directory` states how it is searched. Both have to agree on every number here: a change of
+//! one of them makes a new layout.
 
 /// Indices of a block.
 const SIZE: u16 = 32;

@@ -55,7 +55,7 @@ impl<'a> Plan<'a> {
         self.plan_runs(&mut scopes.accessors);
     }
 
-    /// Claims what is printed beside the accessor of an object.
+    /// Claims what is printed with the accessor of an object.
     fn claim_shape(
         &self,
         shape: &Shape,
@@ -264,7 +264,7 @@ fn are_alike(elements: &[Entry]) -> bool {
     })
 }
 
-/// Whether elements lie one behind the other in the image, or are all constants.
+/// Whether elements lie one after the other in the image, or are all constants.
 fn lies_in_a_row(object: &Object, elements: &[Entry], layout: &Layout) -> bool {
     let placed = |entry: &Entry| layout.places.get(&EntryId { index: object.index, sub: entry.sub }).copied();
     let Some(Placed { place: Place::Image(start), size }) = elements.first().and_then(placed) else {
@@ -289,7 +289,7 @@ fn limits(entry: &Entry) -> Option<(i64, i64)> {
     if entry.data_type.family() == Family::Real {
         let RealLimits { low, high, .. } = &entry.real_limits;
         let order = |real: &Real| real.order(entry.data_type);
-        // Without a limit, up to infinity; beyond it there is what is no number.
+        // Without a limit, up to infinity; beyond it there is what is not a number.
         let infinity = Real::from(f64::INFINITY).order(entry.data_type);
         return Some((low.as_ref().map_or(-infinity, order), high.as_ref().map_or(infinity, order)));
     }

@@ -1,7 +1,7 @@
 //! What an EDS leaves open and code cannot do without: names that differ, and how long a text may be.
 //!
-//! Who writes a specification is asked to decide; nobody can be asked about an EDS, so here is decided for them, always in
-//! the same way.
+//! The author of a specification is asked to decide. For an EDS there is no one to ask, so it is decided here, always
+//! in the same way.
 
 mod names;
 mod units;
@@ -28,8 +28,8 @@ pub fn tell_apart(device: &mut Dictionary, language: &dyn Language) {
     names::tell_apart(device, language);
 }
 
-/// The device with names that differ and with capacities, whatever it was read from: where nobody will see a name, nobody is
-/// asked for one.
+/// The device with names that differ and with capacities, whatever it was read from: where names are not visible, no
+/// one is asked for one.
 pub fn decided_anyhow(device: &Dictionary, language: &dyn Language) -> Dictionary {
     let mut device = device.clone();
     names::tell_apart(&mut device, language);

@@ -4,8 +4,8 @@ use super::names::Words;
 
 /// A language that plans are printed in.
 pub trait Language {
-    /// The identifier that words become in a scope, which is no keyword and nothing that the printed code needs there itself;
-    /// empty where there are no words.
+    /// The identifier that words become in a scope, which is not a keyword and nothing that the printed code needs
+    /// there itself; empty where there are no words.
     fn identifier(&self, scope: ScopeKind, role: Role, words: &Words) -> String;
 
     /// The further identifier that the language's printer makes from one; `None` where it makes none.
@@ -26,20 +26,20 @@ pub enum Role {
     Constant,
     /// What is called: the accessor of an entry, a group or some bits; a condition.
     Function,
-    /// An entry where values stand together, as in a PDO.
+    /// An entry where values are together, as in a PDO.
     Field,
 }
 
-/// What is printed beside an identifier.
+/// What is printed with an identifier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Companion {
-    /// Beside the accessor of an entry: what writes it.
+    /// With the accessor of an entry: what writes it.
     Setter,
-    /// Beside the accessor of a group: the group, to be changed.
+    /// With the accessor of a group: the group, to be changed.
     Mutable,
-    /// Beside the accessor of elements by sub-index: all of them.
+    /// With the accessor of elements by sub-index: all of them.
     Elements,
-    /// Beside the accessor of some bits: the word with other bits.
+    /// With the accessor of some bits: the word with other bits.
     With,
 }
 
@@ -58,7 +58,7 @@ impl Companion {
 /// A scope: identifiers that must differ from each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ScopeKind {
-    /// Types beside the dictionary's.
+    /// Types in addition to the dictionary's.
     Dictionary,
     /// Accessors of the dictionary: of entries and of groups.
     Accessors,

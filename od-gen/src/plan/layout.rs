@@ -162,8 +162,9 @@ static NOT_VALID: Value = Value::Integer(1 << 31);
 /// No errors.
 static NONE_YET: Value = Value::Integer(0);
 
-/// The value after a factory reset, where there is one. A PDO for whose COB-ID nobody states a value does not exist: 0 would be the
-/// identifier that stops nodes. 1003h.0 counts the errors that occurred; an EDS that has the size of the list there means none.
+/// The value after a factory reset, where there is one. A PDO without a stated value of its COB-ID does not exist: 0
+/// would be the identifier that stops nodes. 1003h.0 counts the errors that occurred; an EDS that has the size of the
+/// list there means none.
 pub fn factory(id: EntryId, entry: &Entry) -> Option<&Value> {
     match (Role::of(id.index), id.sub) {
         (Role::PdoCommunication, SubIndex(1)) => entry.default.as_ref().or(Some(&NOT_VALID)),
@@ -183,7 +184,7 @@ fn constant(object: &Object, entry: &Entry) -> Option<Vec<u8>> {
     None
 }
 
-/// Bytes of a value that is no constant; of a string its capacity, of a DOMAIN 0.
+/// Bytes of a value that is not a constant; of a string its capacity, of a DOMAIN 0.
 fn size(id: EntryId, entry: &Entry, diagnostics: &mut Diagnostics) -> Option<usize> {
     if let Some(bits) = entry.data_type.bits() {
         return Some(usize::from(bits.div_ceil(8)));
@@ -327,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn the_number_of_a_group_tells_its_layout() {
+    fn the_number_of_a_group_identifies_its_layout() {
         let layout = |objects: &[(usize, usize, u8)]| {
             let layout = lay_out(&device(objects), &mut Diagnostics::new());
             layout

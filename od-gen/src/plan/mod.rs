@@ -1,7 +1,7 @@
 //! What the code of a device will consist of: names, places, tables.
 //!
 //! A plan is in no language. What it has to know of the one it will be printed in, it asks the [`Language`]: how an
-//! identifier is spelled, and which are taken. A second language is a printer beside the first.
+//! identifier is spelled, and which are taken. A second language is a printer next to the first.
 
 mod condition;
 mod directory;
@@ -129,7 +129,7 @@ pub struct PlannedEntry<'a> {
     pub entry: &'a Entry,
     /// Name in the enumeration of all entries.
     pub variant: String,
-    /// Name where entries of many objects stand together.
+    /// Name where entries of many objects are together.
     pub name: String,
     /// Name of its accessor, in its object's group.
     pub member: String,
@@ -152,7 +152,7 @@ pub struct ValueKind {
     pub named: Option<String>,
     /// The unit around the number.
     pub unit: Option<String>,
-    /// The special values beside it.
+    /// The special values in addition to it.
     pub special: Option<usize>,
 }
 
@@ -239,11 +239,11 @@ pub struct PlannedUnit<'a> {
     pub scale: Fraction,
     /// One raw step in the base.
     pub step: Fraction,
-    /// What the raw value 0 stands for, where that is not 0.
+    /// What the raw value 0 means, where that is not 0.
     pub offset: Option<PlannedOffset>,
 }
 
-/// What the raw value 0 of a unit stands for.
+/// What the raw value 0 of a unit means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PlannedOffset {
     /// In the unit's symbol.
@@ -492,7 +492,7 @@ fn rows(device: &Dictionary, diagnostics: &mut Diagnostics) -> BTreeMap<EntryId,
             Diagnostic::new(
                 codes::NOT_IN_FIRMWARE,
                 device.span,
-                format!("`{}` has no object, and code of nothing is no dictionary", device.key),
+                format!("`{}` has no object, and code of nothing is not a dictionary", device.key),
             )
             .help("describe objects, or take those that every device has with `uses: [cia301]`"),
         );

@@ -73,13 +73,13 @@ pub(super) struct Scope {
     taken: BTreeMap<String, Owner>,
 }
 
-/// What an identifier stands for.
+/// What an identifier means.
 #[derive(Debug)]
 struct Owner {
     what: String,
     /// `None` for objects by number.
     span: Option<Span>,
-    /// Whether it is told already that something else would have the identifier, too.
+    /// Whether it is already reported that something else would have the identifier, too.
     is_told: bool,
 }
 

@@ -72,8 +72,8 @@ impl Plan<'_> {
                 return None;
             }
         }
-        // Placeholders are no rows; a mapping with any of them is searched, and so is one that does not lie in one piece, or that
-        // an EDS states wrongly.
+        // Placeholders are not rows; a mapping with any of them is searched, and so is one that does not lie in one
+        // piece, or that an EDS states wrongly.
         let count = self.entry(mapping)?.entry.default.as_ref().and_then(Value::integer);
         let known = fields.len() == pdo.map.len()
             && fields.len() <= 64
@@ -94,7 +94,8 @@ impl Plan<'_> {
         })
     }
 
-    /// Whether the mapping parameters behind a number of mapped entries are all constants, or lie in the image one behind the other.
+    /// Whether the mapping parameters after a number of mapped entries are all constants, or lie in the image one after
+    /// the other.
     fn lies_in_one_piece(&self, number: u16, mapped: usize) -> bool {
         let places: Vec<Place> =
             self.entries.iter().skip(usize::from(number) + 1).take(mapped).map(|entry| entry.place).collect();
@@ -184,7 +185,7 @@ impl Plan<'_> {
                         || device.entry(entry.id).is_none()
                 })
             };
-            // Whether the condition counts at all cannot be told from here.
+            // Whether the condition counts at all cannot be decided here.
             if constraint.when.as_ref().is_some_and(foreign) {
                 continue;
             }

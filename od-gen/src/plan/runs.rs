@@ -16,7 +16,7 @@ pub struct PlannedRun {
     pub first: u16,
     /// Positions in the plan, by number.
     pub objects: Vec<usize>,
-    /// How far each value lies behind the same one of the object before, in the image.
+    /// How far each value lies after the same one of the object before, in the image.
     pub steps: Vec<usize>,
 }
 
@@ -58,7 +58,7 @@ impl Plan<'_> {
         }
     }
 
-    /// What stands beside the accessor of such objects.
+    /// What is printed with the accessor of such objects.
     fn companion(&self, numbered: &[(u16, usize)]) -> Companion {
         let first = numbered.first().and_then(|(_, position)| self.objects.get(*position));
         match first.map(|object| &object.shape) {
@@ -87,7 +87,7 @@ impl Plan<'_> {
         others.all(|(further, &(number, at))| fits(further, number, at).is_some()).then_some((first, steps))
     }
 
-    /// Whether one accessor can stand for two objects, but for the places of their values.
+    /// Whether one accessor can serve two objects, except for the places of their values.
     fn are_alike(
         &self,
         one: (usize, &PlannedObject<'_>),
@@ -112,7 +112,7 @@ impl Plan<'_> {
         }
     }
 
-    /// The entries whose values the accessor of an object reaches: of an array those behind sub-index 0.
+    /// The entries whose values the accessor of an object reaches: of an array those after sub-index 0.
     pub fn values_of(&self, object: &PlannedObject<'_>) -> impl Iterator<Item = &PlannedEntry<'_>> {
         let is_value = |entry: &&PlannedEntry<'_>| match object.shape {
             Shape::Var => true,

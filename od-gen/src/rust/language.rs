@@ -17,7 +17,7 @@ const GROUPS: &[&str] = &["Option", "Some", "None", "Result", "Ok", "Err", "Borr
 /// Names that generated code uses where enums and bit fields are defined.
 const TYPES: &[&str] = &["Option", "Some", "None"];
 
-/// Those of groups, and the type that stands beside the dictionary's.
+/// Those of groups, and the type next to the dictionary's.
 const DICTIONARY: &[&str] =
     &["Option", "Some", "None", "Result", "Ok", "Err", "Borrow", "BorrowMut", "D", "Entry"];
 

@@ -18,7 +18,7 @@ pub use crate::provenance::Provenance;
 
 /// The items of a device's module. What cannot be code (two names that give one identifier, a string without capacity) is
 /// reported, and nothing comes out. An EDS cannot say what code needs of it, and its objects often share names: there, what would
-/// clash gets its index behind its name, and a text has room for its default and for 32 bytes.
+/// clash gets its index after its name, and a text has room for its default and for 32 bytes.
 pub fn tokens(system: &System, device: &Dictionary, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
     let errors = diagnostics.errors_found();
     let device = decided(system, device, &Rust);

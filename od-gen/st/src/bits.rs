@@ -89,7 +89,7 @@ fn member_name(field: &BitField) -> String {
     if name.is_empty() { format!("bit_{}", field.first) } else { name }
 }
 
-/// What tells a field from the others of its word.
+/// What distinguishes a field from the others of its word.
 fn number(field: &BitField) -> String {
     format!("b{}", field.first)
 }
@@ -147,7 +147,7 @@ fn labels(device: &Device<'_>, field: &BitField) -> Vec<(String, String)> {
     labels
 }
 
-/// What is worth knowing of a field beside its place.
+/// What is worth knowing of a field in addition to its place.
 fn remarks(device: &Device<'_>, field: &BitField) -> Vec<String> {
     let mut remarks = Vec::new();
     if !field.name.is_empty() {

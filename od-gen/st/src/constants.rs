@@ -137,7 +137,7 @@ pub(super) fn literal(of_type: Elementary, value: &Value, node: Option<u8>) -> O
     }
 }
 
-/// The literal of an entry's raw value: in hexadecimal, where nobody knows its numbers in decimal, such as a COB-ID.
+/// The literal of an entry's raw value: in hexadecimal, where its numbers are not used in decimal, such as a COB-ID.
 fn of_entry_literal(
     id: EntryId,
     entry: &Entry,

@@ -9,7 +9,7 @@ use od_spec::wording::{Language, Word, Wording};
 use super::names::{LONGEST, LONGEST_OF_ENTRY, Scope, Wanted};
 use super::phrases::Phrase;
 
-/// A device, and in which words it is told.
+/// A device, and in which words it is described.
 pub(super) struct Device<'a> {
     pub system: &'a System,
     pub dictionary: &'a Dictionary,
@@ -154,17 +154,17 @@ impl<'a> Device<'a> {
     }
 }
 
-/// What tells an entry from every other one: `6041_0`.
+/// What distinguishes an entry from every other one: `6041_0`.
 pub(super) fn number(id: EntryId) -> String {
     format!("{:04X}_{}", id.index.0, id.sub.0)
 }
 
-/// A name and what is behind it, in capitals as constants and types have them.
+/// A name and what follows it, in upper case as constants and types have them.
 pub(super) fn capitals(name: &str, behind: &str) -> String {
     joined(name, behind).to_ascii_uppercase()
 }
 
-/// A name and the words behind it.
+/// A name and the words after it.
 pub(super) fn joined(name: &str, behind: &str) -> String {
     Words::of(name).and(behind).snake()
 }

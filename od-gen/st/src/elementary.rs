@@ -136,7 +136,7 @@ impl Elementary {
                 let digits = usize::try_from(self.bits() / 4).unwrap_or_default();
                 format!("16#{:0digits$X}", raw & ((1 << self.bits()) - 1))
             }
-            // The number behind the sign of the smallest value is too large for the type.
+            // The number after the sign of the smallest value is too large for the type.
             Kind::Signed if raw == -(1 << (self.bits() - 1)) => format!("{}#{raw}", self.name()),
             Kind::Signed | Kind::Unsigned => raw.to_string(),
             Kind::Real => format!("{raw}.0"),

@@ -14,7 +14,7 @@ pub(super) struct Machine<'a> {
     /// Type of the entry that shows the state.
     pub status: Elementary,
     command: Elementary,
-    /// Name of the function that tells the state.
+    /// Name of the function that returns the state.
     pub state: String,
     give: String,
     /// What the names of its enums begin with.

@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest name. TIA Portal takes 128 characters; CODESYS and TwinCAT have no end.
 pub(super) const LONGEST: usize = 120;
-/// Longest name of an entry, so that there is room for what is behind it.
+/// Longest name of an entry, so that there is room for what follows it.
 pub(super) const LONGEST_OF_ENTRY: usize = 80;
 
-/// Words of the language, and of the tools that take it, which name nothing else; in capitals. Names of the file begin with the
-/// key of the device; members of structures and enums do not, and are compared with these.
+/// Words of the language, and of the tools that take it, which name nothing else; in upper case. Names of the file
+/// begin with the key of the device; members of structures and enums do not, and are compared with these.
 const WORDS: &[&str] = &[
     "ABS",
     "ABSTRACT",
@@ -242,7 +242,7 @@ const WORDS: &[&str] = &[
 pub(super) struct Wanted {
     /// The name; may be empty.
     pub name: String,
-    /// What tells it from others, where it is too long or not the only one: `2001_1`.
+    /// What distinguishes it from others, where it is too long or not the only one: `2001_1`.
     pub number: String,
 }
 
@@ -255,7 +255,7 @@ impl Wanted {
 /// A scope in which a name is given once.
 #[derive(Debug)]
 pub(super) struct Scope {
-    /// In capitals.
+    /// In upper case.
     taken: BTreeSet<String>,
     longest: usize,
 }

@@ -23,12 +23,12 @@ pub(super) struct PlannedPdo<'a> {
     /// Name of the structure.
     pub type_name: String,
     block: String,
-    /// Name of the function between bytes and structure; `None` where a number has no bits that the language tells.
+    /// Name of the function between bytes and structure; `None` where a number has no bits that the language can reach.
     pub bytes: Option<String>,
     pub fields: Vec<Field<'a>>,
 }
 
-/// A part of a PDO that is no placeholder.
+/// A part of a PDO that is not a placeholder.
 pub(super) struct Field<'a> {
     pub id: EntryId,
     entry: Option<(&'a Object, &'a Entry)>,
@@ -61,7 +61,7 @@ impl Field<'_> {
     }
 }
 
-/// The PDOs of a device, RPDOs first, with those that cannot be told.
+/// The PDOs of a device, RPDOs first, with those that cannot be converted.
 pub(super) fn pdos<'a>(device: &mut Device<'a>, left_out: &mut Vec<LeftOut>) -> Vec<PlannedPdo<'a>> {
     let key = device.dictionary.key.clone();
     let all: Vec<&'a Pdo> = device.dictionary.pdos.iter().filter(|pdo| !pdo.map.is_empty()).collect();
@@ -123,7 +123,7 @@ fn fields<'a>(device: &Device<'a>, pdo: &Pdo) -> Vec<Field<'a>> {
         );
         wanted.push(Wanted::new(words.snake(), number(id)));
         let whole = entry.filter(|(_, entry)| entry.data_type.bits().map(u32::from) == Some(bits));
-        // A part of a value, or what is no number, is one without a sign.
+        // A part of a value, or what is not a number, is one without a sign.
         let of_type =
             whole.and_then(|(_, entry)| Elementary::of(entry)).unwrap_or(Elementary::unsigned(bits));
         fields.push(Field { id, entry, member: String::new(), of_type, first: field.first_bit, bits });
@@ -308,7 +308,8 @@ impl PlannedPdo<'_> {
             };
             if let Some((quantity, to_raw)) = quantity {
                 let accepted = scope.give(format!("{name}_accepted"), number(field.id));
-                // Without a default the quantity that the raw 0 of the structure is, so that an input that nobody sets changes nothing.
+                // Without a default the quantity that the raw 0 of the structure is, so that an input that is not set
+                // changes nothing.
                 let start = default.and_then(|value| raw(value, device.node)).unwrap_or(0);
                 let start = Some(quantity.literal(start));
                 let note = format!("{}; {note}", quantity.symbol());

@@ -2,7 +2,7 @@
 //!
 //! A raw value is `(raw * factor + summand) / divisor` in its unit, with three whole numbers that LREAL has exactly, so that
 //! nothing is rounded before the last step. On the way back a controller's own rounding does not matter: what it makes of a
-//! number is put right by what is left over, and only then compared with whole limits.
+//! number is corrected by what is left over, and only then compared with whole limits.
 
 use std::collections::BTreeMap;
 
@@ -91,7 +91,7 @@ impl Linear {
     }
 
     /// The value of a raw one as a number of the language, to the nearest that there is.
-    #[expect(clippy::cast_precision_loss, reason = "a bound with room beside it, or a number that is shown")]
+    #[expect(clippy::cast_precision_loss, reason = "a bound with a margin, or a number that is shown")]
     fn number(self, raw: i128) -> f64 {
         (raw * self.factor + self.summand) as f64 / self.divisor as f64
     }
@@ -118,7 +118,8 @@ const fn is_taken(entry: &Entry) -> bool {
     entry.access.is_writable()
 }
 
-/// The groups of an object's entries that share functions: all quantities of it, where nothing tells them apart; else each.
+/// The groups of an object's entries that share functions: all quantities of it, where nothing distinguishes them; else
+/// each.
 fn groups(object: &Object) -> Vec<(Vec<&Entry>, bool)> {
     let entries: Vec<&Entry> = object.entries.iter().filter(|entry| unit_of(entry).is_some()).collect();
     let is_one = entries.len() > 1
@@ -325,7 +326,7 @@ impl Quantity<'_> {
     }
 }
 
-/// Puts right what a controller has made of the steps: cut off or rounded, halves up, down or to even.
+/// Corrects what a controller has made of the steps: cut off or rounded, halves up, down or to even.
 fn nearest(text: &mut Text, [above, below]: [&str; 2]) {
     text.block(&format!("IF rest {above} 0.5 THEN"), &format!("ELSIF rest {below} -0.5 THEN"), |text| {
         text.line("whole := whole + 1;");

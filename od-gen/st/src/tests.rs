@@ -48,7 +48,7 @@ objects:
   0x2001: {name: set-point, type: unsigned8, unit: far, access: rw, pdo: receive}
   0x2002: {name: way, type: way, access: rw, pdo: receive}
   0x2003: {name: flags, type: flags, access: ro, pdo: transmit}
-  0x2004: {name: part of the plant that is described by a name which nobody would want to read twice or type even once, type: integer24, access: rw, pdo: receive}
+  0x2004: {name: part of the plant that is described by a name which no reader wants to see twice or type even once, type: integer24, access: rw, pdo: receive}
   0x2005: {name: a real, type: real32, access: rw, pdo: receive}
 pdos:
   24v-valve:

@@ -1,8 +1,8 @@
-//! The text of a file: lines, how far they stand in, and comments.
+//! The text of a file: lines, how far they are indented, and comments.
 
 use std::fmt::Write as _;
 
-/// What stands in by one level.
+/// What is indented by one level.
 const STEP: &str = "    ";
 
 /// The text of a file.
@@ -29,13 +29,13 @@ impl Text {
         }
     }
 
-    /// Lines that stand one level further in, between two others.
+    /// Lines that are one level further in, between two others.
     pub(super) fn block(&mut self, first: &str, last: &str, inner: impl FnOnce(&mut Self)) {
         self.line(first);
         self.indented(last, inner);
     }
 
-    /// Lines that stand one level further in, and one behind them that does not.
+    /// Lines that are one level further in, and one after them that does not.
     pub(super) fn indented(&mut self, last: &str, inner: impl FnOnce(&mut Self)) {
         self.depth += 1;
         inner(self);
@@ -53,7 +53,7 @@ impl Text {
         self.line(&format!("{}{last} *)", if others.is_empty() { "(* " } else { "   " }));
     }
 
-    /// A line with a comment behind it, where there is one.
+    /// A line with a comment after it, where there is one.
     pub(super) fn noted(&mut self, line: &str, note: &str) {
         if note.is_empty() {
             return self.line(line);
@@ -117,7 +117,7 @@ impl Declaration {
     }
 }
 
-/// A text that neither ends the comment that it stands in nor begins another one.
+/// A text that neither ends the comment that it is in nor begins another one.
 fn in_comment(text: &str) -> String {
     let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     plain.trim_end().replace("(*", "( *").replace("*)", "* )").replace("(*", "( *")

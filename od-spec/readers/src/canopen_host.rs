@@ -54,7 +54,8 @@ fn is_object(name: &str) -> bool {
 
 fn entry(keys: &Keys<'_>, refusals: &mut Refusals) {
     let Some((text, place)) = keys.get("datatype") else { return };
-    let Some(data_type) = refusals.wants(sum(text), *place, Cause::Number, "a data type that is no number")
+    let Some(data_type) =
+        refusals.wants(sum(text), *place, Cause::Number, "a data type that is not a number")
     else {
         return;
     };
@@ -64,7 +65,7 @@ fn entry(keys: &Keys<'_>, refusals: &mut Refusals) {
     if let Some((access, place)) = keys.get("accesstype")
         && !["ro", "wo", "rw", "rwr", "rww", "const"].iter().any(|known| access.eq_ignore_ascii_case(known))
     {
-        refusals.add(*place, Cause::Value, "an access type that is none");
+        refusals.add(*place, Cause::Value, "not a valid access type");
     }
     let Some((value, place)) = keys.get("parametervalue").or_else(|| keys.get("defaultvalue")) else {
         return;
@@ -73,7 +74,7 @@ fn entry(keys: &Keys<'_>, refusals: &mut Refusals) {
         return;
     }
     if INTEGERS.contains(&data_type) && sum(value).is_none() {
-        refusals.add(*place, Cause::Number, "a value that is no sum of plain numbers and `$NODEID`");
+        refusals.add(*place, Cause::Number, "a value that is not a sum of plain numbers and `$NODEID`");
     }
     if REALS.contains(&data_type) && value.parse::<f64>().is_err() {
         refusals.add(*place, Cause::Number, "a REAL that is not written in decimal");

@@ -35,7 +35,7 @@ pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
             if let Some(object) = object(&block, &mut refusals)
                 && objects.insert(index, object).is_some()
             {
-                refusals.add(block.header.place(), Cause::Text, "a section that stands twice");
+                refusals.add(block.header.place(), Cause::Text, "a section that is written twice");
             }
             before = Some(index);
         } else if let Some((index, sub)) = sub_index(name) {
@@ -48,7 +48,7 @@ pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
     refusals
 }
 
-/// The sections of a text, of which the reader knows no more than that an empty line stands between them.
+/// The sections of a text, of which the reader knows no more than that an empty line is between them.
 fn blocks<'t>(text: &'t str, refusals: &mut Refusals) -> Vec<Block<'t>> {
     // A text that ends with several empty lines has a section of one empty line for the reader.
     let ends_empty = text.replace("\r\n", "\n").replace('\r', "\n");
@@ -106,7 +106,7 @@ fn sub_index(name: &str) -> Option<(u32, u32)> {
     Some((hexadecimal(index).filter(|_| index.len() == 4)?, sub))
 }
 
-/// Numbers in decimal, or in hexadecimal behind `0x`.
+/// Numbers in decimal, or in hexadecimal after `0x`.
 fn number(text: &str) -> Option<i128> {
     int(text, if text.starts_with("0x") { 16 } else { 10 })
 }
@@ -122,7 +122,7 @@ fn object<'t>(block: &Block<'t>, refusals: &mut Refusals) -> Option<Object<'t>> 
             None
         }
         None => {
-            refusals.add(*place, Cause::Number, "an object type that is no number");
+            refusals.add(*place, Cause::Number, "an object type that is not a number");
             None
         }
     }
@@ -160,7 +160,7 @@ fn add_sub<'t>(
         }
     };
     if subs.insert(sub, value).is_some() && sub != 0 {
-        refusals.add(header, Cause::Text, "a section that stands twice");
+        refusals.add(header, Cause::Text, "a section that is written twice");
     }
 }
 
@@ -175,7 +175,7 @@ fn list(block: &Block<'_>, refusals: &mut Refusals) {
             number(value),
             *place,
             Cause::Number,
-            "an entry of a list of objects that is no number",
+            "an entry of a list of objects that is not a number",
         );
     }
 }
@@ -193,7 +193,7 @@ fn mappings(objects: &BTreeMap<u32, Object<'_>>, refusals: &mut Refusals) {
             let Some(mapped) =
                 value.strip_prefix("0x").filter(|digits| digits.len() == 8).and_then(hexadecimal)
             else {
-                // It is put right by the reader itself.
+                // The reader itself corrects it.
                 continue;
             };
             let (index, sub) = (mapped >> 16, mapped >> 8 & 0xFF);

@@ -17,7 +17,7 @@ pub(super) enum Value {
 /// The keys of a section with their last value.
 pub(super) type Keys = BTreeMap<String, (Value, Place)>;
 
-/// Sections by name, and where their first header stands.
+/// Sections by name, and where their first header is.
 pub(super) fn sections(text: &str) -> BTreeMap<String, (Place, Keys)> {
     let mut sections: BTreeMap<String, (Place, Keys)> = BTreeMap::new();
     let mut current: Option<String> = None;
@@ -25,7 +25,7 @@ pub(super) fn sections(text: &str) -> BTreeMap<String, (Place, Keys)> {
         if row.text.is_empty() || row.text.trim_start().starts_with([';', '#']) {
             continue;
         }
-        // A header is a whole line; with a blank behind it, it is a key.
+        // A header is a whole line; with a space after it, it is a key.
         if let Some(name) = row.text.strip_prefix('[').and_then(|text| text.strip_suffix(']'))
             && !name.contains(']')
         {
@@ -106,7 +106,7 @@ pub(super) fn parse_int(text: &str) -> Option<i128> {
     number.map(|number| if negative { -number } else { number })
 }
 
-/// `Number(text)`, or `None` for what is no number.
+/// `Number(text)`, or `None` for what is not a number.
 pub(super) fn number(text: &str) -> Option<f64> {
     let text = text.trim();
     if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {

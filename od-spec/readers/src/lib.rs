@@ -27,8 +27,8 @@ use od_spec::source::{FileId, SourceFile, SourceMap};
 use od_spec::{Compiled, departures};
 use refusal::{Cause, Place, Refusal, Refusals};
 
-/// Adds to what the compiler says what only whoever checks a file wants to know: which programs refuse an EDS for what is found,
-/// and where devices depart from their libraries.
+/// Adds to what the compiler says what matters only when a file is checked: which programs refuse an EDS for what is
+/// found, and where devices depart from their libraries.
 pub fn remark(sources: &SourceMap, root: FileId, compiled: &mut Compiled) {
     let file = sources.file(root);
     if is_eds(file.name(), file.text()) {

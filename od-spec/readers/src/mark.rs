@@ -24,7 +24,7 @@ use od_spec::source::{FileId, SourceFile, SourceMap, Span};
 /// let file = sources.add("lamp.eds", text);
 /// let mut findings = compile(&mut sources, file, &mut NoFiles).diagnostics;
 /// mark(&sources, file, &mut findings);
-/// let access = findings.iter().find(|one| one.code.id == "EDS406").expect("`R` is no access type");
+/// let access = findings.iter().find(|one| one.code.id == "EDS406").expect("`R` is not an access type");
 /// assert!(access.minded_by.contains(Reader::CanopenHost));
 /// assert!(!access.minded_by.contains(Reader::PythonCanopen));
 /// ```

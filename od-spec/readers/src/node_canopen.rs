@@ -10,14 +10,14 @@ use od_spec::source::FileId;
 pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
     let mut refusals = Refusals::new(Reader::NodeCanopen, file);
     let sections = sections(text);
-    // Whether an object has sub-indices; one that could not be made has them, as far as anybody can tell.
+    // Whether an object has sub-indices; one that could not be made has them, as far as is known.
     let mut objects: BTreeMap<u16, bool> = BTreeMap::new();
     for (name, (header, keys)) in &sections {
         let Some(index) = index(name) else { continue };
         let object = Section { header: *header, keys };
         let has_subs = entry(&object, &mut refusals);
         if objects.insert(index, has_subs).is_some() {
-            refusals.add(*header, Cause::Text, "a section that stands twice, in other capitals");
+            refusals.add(*header, Cause::Text, "a section that is written twice, in different case");
         }
     }
     for (name, (header, keys)) in &sections {
@@ -58,7 +58,7 @@ struct Section<'s> {
 }
 
 impl Section<'_> {
-    /// A number other than 0; 0 and what is no number are as if they were not there.
+    /// A number other than 0; 0 and what is not a number are as if they were not there.
     fn number(&self, key: &str) -> Option<i128> {
         match self.keys.get(key)? {
             (Value::Text(text), _) => parse_int(text).filter(|number| *number != 0),
@@ -66,7 +66,7 @@ impl Section<'_> {
         }
     }
 
-    /// Where a key stands, also in other capitals, or the section.
+    /// Where a key is, also in another case, or the section.
     fn place(&self, key: &str) -> Place {
         let named =
             || self.keys.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, found)| found);
@@ -97,7 +97,7 @@ fn entry(section: &Section<'_>, refusals: &mut Refusals) -> bool {
             false
         }
         _ => {
-            refusals.add(section.place("ObjectType"), Cause::Unknown, "an object type that is none");
+            refusals.add(section.place("ObjectType"), Cause::Unknown, "not a valid object type");
             false
         }
     }
@@ -150,9 +150,9 @@ fn default_value(data_type: i128, value: &Value, place: Place, refusals: &mut Re
         Value::Boolean(_) | Value::Null => true,
         Value::Text(text) if bits == 64 => match big_int(text) {
             Some(number) => (low..=high).contains(&number),
-            None => return refusals.add(place, Cause::Number, "a 64-bit value that is no plain number"),
+            None => return refusals.add(place, Cause::Number, "a 64-bit value that is not a plain number"),
         },
-        // What is no number is written as 0. These numbers have at most 48 bits, for which 53 are enough.
+        // What is not a number is written as 0. These numbers have at most 48 bits, for which 53 are enough.
         #[expect(clippy::cast_precision_loss)]
         Value::Text(text) => number(text).is_none_or(|number| (low as f64..=high as f64).contains(&number)),
     };

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::refusal::{Cause, Place, Refusals, rows};
 
 /// `int(text, base)`; what is larger than any number of an EDS is the largest. Base 0 lets the text say its base, as literals
-/// of Python do, in which `010` is no number.
+/// of Python do, in which `010` is not a number.
 pub(super) fn int(text: &str, base: u32) -> Option<i128> {
     let text = text.trim();
     let (negative, digits) = match text.strip_prefix('-') {
@@ -29,7 +29,7 @@ pub(super) fn int(text: &str, base: u32) -> Option<i128> {
         (base, Some(marked)) if base == marked => (base, &digits[2..]),
         (base, _) => (base, digits),
     };
-    // An underscore may stand between digits, and behind a prefix.
+    // An underscore may be between digits, and after a prefix.
     let digits = if marked.is_some() { digits.strip_prefix('_').unwrap_or(digits) } else { digits };
     if digits.is_empty() || digits.starts_with('_') || digits.ends_with('_') || digits.contains("__") {
         return None;
@@ -83,7 +83,7 @@ fn folded(name: &str, capitals: Capitals) -> Cow<'_, str> {
 }
 
 impl<'t> Ini<'t> {
-    /// Reads a text. `remarks` are the signs that begin a comment behind a blank.
+    /// Reads a text. `remarks` are the signs that begin a comment after a space.
     pub(super) fn read(text: &'t str, remarks: &[char], capitals: Capitals, refusals: &mut Refusals) -> Self {
         let mut ini = Self { capitals, sections: Vec::new(), defaults: Vec::new(), by_name: BTreeMap::new() };
         let mut at = At { section: Where::Before, item: None, indent: 0 };
@@ -147,7 +147,7 @@ impl<'t> Ini<'t> {
         }
         if let Some(known) = self.by_name.get(&folded(name, self.capitals)) {
             if self.sections[*known].name == name {
-                refusals.add(header, Cause::Text, "a section that stands twice");
+                refusals.add(header, Cause::Text, "a section that is written twice");
             }
             return Where::In(*known);
         }
@@ -183,12 +183,12 @@ impl<'t> Section<'t> {
         self.item(key).filter(|item| !item.value.is_empty())
     }
 
-    /// Where a key stands, or the section.
+    /// Where a key is, or the section.
     pub(super) fn place(&self, key: &str) -> Place {
         self.item(key).map_or(self.header, |item| item.place)
     }
 
-    /// Where a key stands in other capitals, or the section.
+    /// Where a key is in another case, or the section.
     pub(super) fn place_in_any_capitals(&self, key: &str) -> Place {
         let found = self.items.iter().find(|item| item.key.eq_ignore_ascii_case(key));
         found.map_or(self.header, |item| item.place)
@@ -198,7 +198,7 @@ impl<'t> Section<'t> {
         let item = Item { key, value, place };
         if let Some(at) = self.by_key.get(&folded(key, self.capitals)) {
             if self.items[*at].key == key {
-                refusals.add(place, Cause::Text, "a key that stands twice");
+                refusals.add(place, Cause::Text, "a key that is written twice");
             }
             self.items[*at] = item;
             return *at;
@@ -221,11 +221,11 @@ struct At {
 enum Where {
     Before,
     In(usize),
-    /// `[DEFAULT]` is no section, but what all sections share.
+    /// `[DEFAULT]` is not a section, but what all sections share.
     InDefaults,
 }
 
-/// Where a remark begins: a sign at the beginning of the line or behind a blank.
+/// Where a remark begins: a sign at the beginning of the line or after a space.
 fn remark_in(line: &str, signs: &[char]) -> Option<usize> {
     let mut before = ' ';
     line.char_indices().find_map(|(at, c)| {

@@ -111,7 +111,7 @@ fn dummies(section: &Section<'_>, refusals: &mut Refusals) {
         match section.value(&key) {
             None => return refusals.add(section.header, Cause::Missing, "one of `Dummy0001` to `Dummy0007`"),
             Some(value) if int(value, 10).is_none() => {
-                refusals.add(section.place(&key), Cause::Number, "a dummy that is no decimal number");
+                refusals.add(section.place(&key), Cause::Number, "a dummy that is not a decimal number");
             }
             Some(_) => {}
         }

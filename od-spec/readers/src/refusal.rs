@@ -9,12 +9,12 @@ use od_spec::source::{FileId, Span};
 pub(super) struct Refusal {
     pub reader: Reader,
     pub cause: Cause,
-    /// What the reader does not take, in a few words that say what stands there.
+    /// What the reader does not take, in a few words that say what is there.
     pub what: &'static str,
     pub place: Span,
 }
 
-/// Why a reader gives up, where this is no fault, or not its own fault, by the standard.
+/// Why a reader gives up, where this is not a fault, or not its own fault, by the standard.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Cause {
     /// It divides the text into lines, keys and values in another way.
@@ -25,7 +25,7 @@ pub(super) enum Cause {
     Missing,
     /// It does not know something.
     Unknown,
-    /// It does not take a value, or a key beside another.
+    /// It does not take a value, or a key together with another.
     Value,
     /// It wants another order.
     Order,

@@ -7,7 +7,7 @@ use od_spec::diag::readers::codes::BOTH_WAYS;
 use od_spec::diag::readers::{Reader, Readers};
 use od_spec::source::{FileId, Span};
 
-/// The first index that is no object of communication.
+/// The first index that is not an object of communication.
 const FIRST_OF_DEVICE: u32 = 0x2000;
 
 /// A note about entries that may be mapped and are both read and written.

@@ -40,8 +40,8 @@ const TABLE: &[(&str, &[Stumbling])] = &[
     (
         "EDS102",
         &[
-            by(PythonCanopen, "the mark stands before the first section"),
-            by(Dcfchk, "the mark stands before the first section"),
+            by(PythonCanopen, "the mark is before the first section"),
+            by(Dcfchk, "the mark is before the first section"),
             by(EdsUtils, "the mark hides the first section name, where that is the first line"),
         ],
     ),
@@ -82,7 +82,7 @@ const TABLE: &[(&str, &[Stumbling])] = &[
             by(PythonCanopen, "it takes a second one for a fault"),
             by(Dcfchk, "it takes a second one for a fault"),
             by(EdsUtils, "it takes a second one for a fault"),
-            by(NodeCanopen, "it takes an object that stands twice, in other capitals, for a fault"),
+            by(NodeCanopen, "it takes an object that is written twice, in different case, for a fault"),
         ],
     ),
     (
@@ -95,8 +95,8 @@ const TABLE: &[(&str, &[Stumbling])] = &[
     (
         "EDS112",
         &[
-            by(EdsUtils, "it takes the blank for a part of key or value"),
-            by(CanopenEditor, "an earlier libedssharp refused a blank behind `=`"),
+            by(EdsUtils, "it takes the space for a part of key or value"),
+            by(CanopenEditor, "an earlier libedssharp refused a space after `=`"),
         ],
     ),
     (
@@ -128,9 +128,9 @@ const TABLE: &[(&str, &[Stumbling])] = &[
     (
         "EDS122",
         &[
-            by(PythonCanopen, "it knows keys in the capitals of the standard only"),
-            by(EdsUtils, "it knows `SupportedObjects` in these capitals only"),
-            by(NodeCanopen, "it knows keys in the capitals of the standard only"),
+            by(PythonCanopen, "it knows keys in the standard's case only"),
+            by(EdsUtils, "it knows `SupportedObjects` in this case only"),
+            by(NodeCanopen, "it knows keys in the standard's case only"),
         ],
     ),
     (
@@ -152,8 +152,8 @@ const TABLE: &[(&str, &[Stumbling])] = &[
     (
         "EDS207",
         &[
-            by(PythonCanopen, "it reads numbers as Python does, in which `010` is none"),
-            by(Dcfchk, "it reads numbers as Python does, in which `010` is none"),
+            by(PythonCanopen, "it reads numbers as Python does, in which `010` is not a number"),
+            by(Dcfchk, "it reads numbers as Python does, in which `010` is not a number"),
         ],
     ),
     ("EDS208", &[by(CanopenEditor, "it failed at a file version such as `1.0`")]),
@@ -234,7 +234,7 @@ const TABLE: &[(&str, &[Stumbling])] = &[
             by(CanopenEditor, "it refused an unknown access type"),
         ],
     ),
-    ("EDS407", &[by(CanopenEditor, "it refused access types in capitals")]),
+    ("EDS407", &[by(CanopenEditor, "it refused access types in upper case")]),
     (
         "EDS408",
         &[
@@ -294,8 +294,8 @@ const TABLE: &[(&str, &[Stumbling])] = &[
     (
         "EDS502",
         &[
-            by(PythonCanopen, "it reads numbers as Python does, in which `010` is none"),
-            by(Dcfchk, "it reads numbers as Python does, in which `010` is none"),
+            by(PythonCanopen, "it reads numbers as Python does, in which `010` is not a number"),
+            by(Dcfchk, "it reads numbers as Python does, in which `010` is not a number"),
         ],
     ),
     (
@@ -327,8 +327,8 @@ const TABLE: &[(&str, &[Stumbling])] = &[
     (
         "EDS508",
         &[
-            by(PythonCanopen, "it cuts off remarks behind ` ;` only"),
-            by(Dcfchk, "it cuts off remarks behind a blank only"),
+            by(PythonCanopen, "it cuts off remarks after ` ;` only"),
+            by(Dcfchk, "it cuts off remarks after a space only"),
             by(EdsUtils, "it wants one `=` in every line"),
             by(CanopenHost, "it knows no remarks"),
         ],
@@ -383,7 +383,7 @@ mod tests {
     fn codes_are_known_and_in_order() {
         assert!(TABLE.is_sorted_by(|(one, _), (next, _)| one < next));
         for (id, readers) in TABLE {
-            assert!(code(id).is_some(), "{id} is no code");
+            assert!(code(id).is_some(), "{id} is not a code");
             assert!(readers.is_sorted_by(|one, next| one.reader < next.reader), "{id}");
         }
     }

@@ -21,7 +21,7 @@ pub fn explanation(code: &Code) -> String {
     out
 }
 
-/// A text in which characters that nobody sees, such as a carriage return, stand as their numbers.
+/// A text in which invisible characters, such as a carriage return, are written as their numbers.
 fn visible(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

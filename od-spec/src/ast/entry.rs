@@ -5,7 +5,7 @@ use crate::keys::entry_keys;
 use crate::model::{Access, AccessRight, Category, Fact, Facts, PdoMapping, Statement, Storage, Text};
 use crate::source::{FileId, Span, Spanned};
 
-/// How far a key of an entry reaches that stands at an object with elements or members.
+/// How far a key of an entry reaches that is written at an object with elements or members.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Reach {
     /// It is about the object itself.

@@ -55,7 +55,7 @@ use declaration;
 pub(crate) struct Spec {
     pub file: FileId,
     pub span: Span,
-    /// A key of the top level was refused, or `devices:` is no map: devices may be meant by it.
+    /// A key of the top level was refused, or `devices:` is not a map: devices may be meant by it.
     pub unsure: bool,
     pub profile: Option<Name>,
     pub title: Option<Name>,
@@ -218,7 +218,7 @@ unit_keys! { declaration
     }
 }
 
-/// What the raw value 0 of a unit stands for, in its symbol.
+/// What the raw value 0 of a unit means, in its symbol.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Offset(pub Ratio);
 
@@ -232,9 +232,9 @@ pub(crate) struct BaseDecl {
 /// A condition.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum ConditionDecl {
-    /// Entries stand by index in it.
+    /// It names entries by index.
     Plain(Expr),
-    /// Names stand in it that have to be looked up.
+    /// It has names that have to be looked up.
     Named(String),
 }
 
@@ -253,7 +253,7 @@ pub(crate) struct NumberRange {
     pub last: u8,
 }
 
-/// A term of a condition that stands alone.
+/// A term of a condition that is written alone.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Formula(pub Expr);
 
@@ -476,7 +476,7 @@ constraint_keys! { declaration
     #[derive(Debug)]
     ConstraintDecl {
         name: Name,
-        /// The one that it stands in for a number, where it was written once for several.
+        /// The number whose constraint it is, where it was written once for several.
         series: Option<Series>,
     }
 }

@@ -13,7 +13,7 @@ pub struct SettingDecl {
     pub(crate) reference: Reference,
     /// The value.
     pub(crate) value: Spanned<DefaultDecl>,
-    /// Where the setting stands.
+    /// Where the setting is written.
     pub(crate) span: Span,
 }
 
@@ -32,7 +32,7 @@ pub(crate) enum Reference {
 }
 
 impl SettingDecl {
-    /// A key of a YAML map with its value. What stands below the name of an object are values of its entries.
+    /// A key of a YAML map with its value. What is below the name of an object are values of its entries.
     pub(crate) fn of_key(key: &Name, value: &Spanned<DefaultDecl>) -> Vec<Self> {
         let one = |reference, key: &Name, value: &Spanned<DefaultDecl>| Self {
             reference,

@@ -1,4 +1,5 @@
-//! Findings that a specification allows: what a rule refuses and the device has all the same, or what is no mistake here.
+//! Findings that a specification allows: what a rule refuses and the device has all the same, or what is not a mistake
+//! here.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,7 +19,7 @@ pub(crate) struct Allowed<'a> {
 /// A code that is allowed.
 struct Allow<'a> {
     decl: &'a AllowDecl,
-    /// Where the objects stand at which alone it is allowed, by where they begin: their ends, and which they are.
+    /// The objects to which alone it is allowed, by where they begin: their ends, and which they are.
     objects: Option<BTreeMap<(FileId, u32), (u32, Index)>>,
 }
 
@@ -82,7 +83,7 @@ impl<'a> Allowed<'a> {
                 by_code.insert(code.value.as_str(), Allow::of(allow));
                 for object in allow.at.iter().flatten().filter(|object| object.places.is_empty()) {
                     let message =
-                        format!("{} stands neither under `objects:` nor under `pdos:`", object.index.value);
+                        format!("{} is neither under `objects:` nor under `pdos:`", object.index.value);
                     diagnostics.push(
                         Diagnostic::new(codes::UNKNOWN_ENTRY, object.index.span, message)
                             .help("name objects of this file"),

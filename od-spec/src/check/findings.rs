@@ -8,7 +8,7 @@ use crate::source::{FileId, Span};
 
 /// What one rule finds.
 pub(crate) struct Findings {
-    /// The place of the device, where many different findings may stand.
+    /// The place of the device, where many different findings may be.
     device: Option<Span>,
     blamed: BTreeSet<Span>,
     list: Diagnostics,
@@ -43,7 +43,7 @@ impl Findings {
         self.list
     }
 
-    /// The findings that stand at one of these places.
+    /// The findings that are at one of these places.
     pub(super) fn standing_at(self, places: &BTreeSet<Span>) -> Diagnostics {
         let mut standing = Diagnostics::new();
         for diagnostic in &self.list {
@@ -66,7 +66,7 @@ impl Findings {
     }
 }
 
-/// `1 more entry of the object`, `2 more entries of the object`: where one finding stands for several.
+/// `1 more entry of the object`, `2 more entries of the object`: where one finding represents several.
 pub(super) fn others(more: usize) -> String {
     format!("{more} more {} of the object", if more == 1 { "entry" } else { "entries" })
 }

@@ -1,6 +1,6 @@
-//! What to do about a finding, in the words of whoever can do it: the author of a specification knows `default:`, the owner of
-//! an EDS `DefaultValue`, and whoever sets a value of a node can change neither. Where one sentence is right for all of them,
-//! a rule says that one.
+//! What to do about a finding, in the words of the reader who can do it: the author of a specification knows
+//! `default:`, the owner of an EDS `DefaultValue`, and a user who sets a value of a node can change neither. Where one
+//! sentence is right for all of them, a rule says that one.
 
 use super::subject::Subject;
 use crate::model::SystemSource;
@@ -12,7 +12,7 @@ pub(super) struct Help<'t> {
     pub specification: &'t str,
     /// For the owner of an EDS, or of a DCF whose defaults are meant.
     pub eds: &'t str,
-    /// For whoever sets a value of a node: beside a specification or an EDS, or in a DCF.
+    /// For a user who sets a value of a node: next to a specification or an EDS, or in a DCF.
     pub setting: &'t str,
 }
 

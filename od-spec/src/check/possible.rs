@@ -1,4 +1,4 @@
-//! The values that an entry can have, as far as type, limits, enum and access tell.
+//! The values that an entry can have, as far as type, limits, enum and access show.
 
 use crate::model::{Access, BitUsage, DataType, Entry, TypeKind, Value};
 
@@ -8,7 +8,8 @@ pub(in crate::check) type Run = (i128, i128);
 /// An enum of more runs than these counts as one run.
 const MOST_RUNS: usize = 64;
 
-/// The raw values that an entry can have: runs in ascending order that neither meet nor overlap. None where they are no whole numbers.
+/// The raw values that an entry can have: runs in ascending order that neither meet nor overlap. None where they are
+/// not whole numbers.
 pub(in crate::check) fn possible(entry: &Entry) -> Option<Vec<Run>> {
     let (least, most) = entry.data_type.range()?;
     let stated = entry.default.as_ref().and_then(Value::integer);
@@ -61,7 +62,7 @@ pub(in crate::check) fn bits(runs: &[Run], bit: u8) -> Vec<Run> {
     values.into_iter().map(|value| (value, value)).collect()
 }
 
-/// Whether a bit is reserved, and 0 for ever: nobody can write it.
+/// Whether a bit is reserved, and 0 for ever: it cannot be written.
 pub(in crate::check) fn is_reserved(entry: &Entry, bit: u8) -> bool {
     if entry.access.is_writable() {
         return false;

@@ -54,6 +54,6 @@ pub(crate) struct Rules<'a> {
     pub list: &'a [&'a Rule],
     /// What CiA 301 says.
     pub standard: Standard,
-    /// How the file that they are applied to is written, where it is no specification.
+    /// How the file that they are applied to is written, where it is not a specification.
     pub format: FileFormat,
 }

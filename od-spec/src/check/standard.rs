@@ -2,7 +2,8 @@
 
 use crate::model::{Entry, Index, Object, ObjectKind, SubIndex};
 
-/// What the standards say about objects. Whoever has read the standards hands them in: reading them takes what rules come after.
+/// What the standards say about objects. The caller that has read the standards passes them in: reading them needs what
+/// is computed before rules.
 #[derive(Clone, Copy)]
 pub(crate) struct Standard {
     /// The object that it defines at an index; for one of a run, the first of the run.

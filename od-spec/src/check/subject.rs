@@ -23,7 +23,7 @@ pub(crate) struct Subject<'a> {
     pub node: Option<u8>,
     /// What CiA 301 says about objects.
     pub standard: Standard,
-    /// How the file of the device is written, where it is no specification.
+    /// How the file of the device is written, where it is not a specification.
     pub format: FileFormat,
 }
 
@@ -33,7 +33,7 @@ impl<'a> Subject<'a> {
         self.node.map_or(1..=127, |node| node..=node)
     }
 
-    /// The node-IDs on which a value may differ: one is enough for a value that is no formula.
+    /// The node-IDs on which a value may differ: one is enough for a value that is not a formula.
     pub(super) fn nodes_of(&self, value: &Value) -> RangeInclusive<u8> {
         match value {
             Value::NodeId(_) => self.nodes(),
@@ -66,7 +66,7 @@ impl<'a> Subject<'a> {
         self.device.entries().filter_map(|(id, _, entry)| Some((id, entry, entry.default.as_ref()?)))
     }
 
-    /// Where a fact of an entry stands; the place of the device for what a library says, which is right.
+    /// Where a fact of an entry is written; the place of the device for what a library says, which is right.
     pub(super) fn place(&self, entry: &Entry, fact: Fact) -> Span {
         match entry.facts.get(fact) {
             Some(statement) if statement.author == Author::Library => self.device.span,
@@ -76,12 +76,12 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Where an object stands; the place of the device for one that a library brings.
+    /// Where an object is written; the place of the device for one that a library brings.
     pub(super) fn object_place(&self, object: &Object) -> Span {
         if object.span.file.is_one_with(self.device.span.file) { object.span } else { self.device.span }
     }
 
-    /// The entries that are set by name, with where that stands.
+    /// The entries that are set by name, with the place of each setting.
     pub(super) fn set_entries(&self) -> impl Iterator<Item = (EntryId, &'a Entry, Span)> {
         let subject = *self;
         let set = self.device.entries().filter(|(.., entry)| entry.is_set());
@@ -110,7 +110,7 @@ impl<'a> Subject<'a> {
         Diagnostic::new(code, self.object_place(object), message).about(object.index)
     }
 
-    /// The files in which settings stand; none for a type.
+    /// The files in which settings are; none for a type.
     pub(super) fn settings(&self) -> BTreeSet<FileId> {
         if self.node.is_none() {
             return BTreeSet::new();
@@ -128,7 +128,7 @@ impl<'a> Subject<'a> {
         if key == self.device.key { Some(self.device) } else { self.system.device(key) }
     }
 
-    /// The entry that a condition names, and where its value stands.
+    /// The entry that a condition names, and where its value is written.
     pub(super) fn named_entry(&self, entry: &EntryRef) -> Option<(&'a Entry, Span)> {
         let found = self.named(entry)?.entry(entry.id)?;
         Some((found, found.place(Fact::Default)))

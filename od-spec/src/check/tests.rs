@@ -76,7 +76,8 @@ fn judged(model: &System) -> Vec<&'static str> {
     codes(&diagnostics)
 }
 
-/// FFh tells the structure of an object and is none of its entries. The language has no such entry; devices of other makers have.
+/// FFh describes the structure of an object and is not one of its entries. The language has no such entry; devices of
+/// other makers have.
 #[test]
 fn the_structure_of_an_object_does_not_count() {
     let text = "objects:
@@ -100,7 +101,7 @@ fn the_structure_of_an_object_does_not_count() {
     assert_eq!((empty, offers), (["OD0314"; 6], "OD0508"));
 }
 
-/// A count without a value is no count of 0.
+/// A count without a value is not a count of 0.
 #[test]
 fn a_count_without_a_value_is_said_once() {
     let text = "objects:\n  0x2000: {name: levels, record: {1: {name: level, type: unsigned8, access: ro}}}";

@@ -1,4 +1,5 @@
-//! Whether a condition is decided before anybody looks at the device: what its entries can be makes it hold always or never.
+//! Whether a condition is decided before the device is looked at: what its entries can be makes it hold always or
+//! never.
 //!
 //! Each comparison is decided by the values that its sides can have. Several that must hold together are looked at as an order
 //! of terms, too: `a < b` and `b < a` never hold together, although each may.
@@ -73,7 +74,7 @@ pub(in crate::check) struct Knowledge<'a> {
 }
 
 impl<'a> Knowledge<'a> {
-    /// What type, limits, enum and access tell.
+    /// What type, limits, enum and access show.
     pub(in crate::check) const fn of(subject: Subject<'a>, from: &'a str) -> Self {
         Self { subject, from, kept: BTreeMap::new() }
     }

@@ -21,7 +21,7 @@ pub(super) fn numbered(decl: ConstraintDecl, diagnostics: &mut Diagnostics) -> V
         if let Some(place) = in_condition.or(in_name) {
             diagnostics.push(
                 Diagnostic::new(codes::BAD_NOTATION, place, "`{n}` has no number here")
-                    .help("add the numbers that it stands for to the constraint: `n: 0..11`"),
+                    .help("add the numbers of the run to the constraint: `n: 0..11`"),
             );
             return Vec::new();
         }
@@ -42,7 +42,7 @@ pub(super) fn numbered(decl: ConstraintDecl, diagnostics: &mut Diagnostics) -> V
         for (place, message) in missing {
             diagnostics.push(
                 Diagnostic::new(codes::BAD_NOTATION, place, message)
-                    .help("write `{n}` into the name and the conditions; it stands for the number"),
+                    .help("write `{n}` into the name and the conditions; it means the number"),
             );
         }
         return Vec::new();
@@ -87,7 +87,7 @@ fn of_number(decl: &ConstraintDecl, number: u32) -> ConstraintDecl {
         let condition = condition.as_ref()?;
         let of_number = match &condition.value {
             ConditionDecl::Plain(_) => condition.value.clone(),
-            // A number fits wherever its place does, and what does not exist is told later.
+            // A number fits wherever its place does, and what does not exist is reported later.
             ConditionDecl::Named(text) => {
                 let text = said(text);
                 ConditionDecl::read(&text).unwrap_or(ConditionDecl::Named(text))

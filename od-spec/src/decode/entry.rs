@@ -15,8 +15,8 @@ macro_rules! entry_reader {
         $($key:literal: $shape:expr => $field:ident: $type:ty, $fact:ident, $reach:ident, $about:literal
             $(, $example:literal)? $(, sub0 $sub0:literal)?;)+
     })+) => {
-        /// Reads the keys of an entry as far as they stand there. An entry has few of them: it is quicker to ask each which
-        /// field it fills than to look for the key of each field.
+        /// Reads the keys of an entry as far as they are there. An entry has few of them: it is quicker to ask each
+        /// which field it fills than to look for the key of each field.
         fn written(reader: Reader<'_>, span: Span, diagnostics: &mut Diagnostics) -> EntryDecl {
             let mut entry = EntryDecl { span, unsure: false, $($($field: Default::default(),)+)+ };
             for (name, _) in reader.node.entries() {
@@ -31,7 +31,7 @@ macro_rules! entry_reader {
 }
 entry_keys!(entry_reader);
 
-/// Reads an entry; `keys` are those of the map in which its keys stand.
+/// Reads an entry; `keys` are those of the map in which its keys are.
 pub(super) fn entry(reader: Reader<'_>, keys: &Keys, span: Span, diagnostics: &mut Diagnostics) -> EntryDecl {
     let mut entry = written(reader, span, diagnostics);
     let no_text = |key: &str| reader.node.get(key).is_some_and(|node| node.text().is_none());

@@ -23,12 +23,12 @@ impl NumberedEntry {
     }
 }
 
-/// An index from 0001h to FFFFh, in hexadecimal as everybody writes it.
+/// An index from 0001h to FFFFh, in hexadecimal as everyone writes it.
 pub(crate) fn index(text: &str) -> Option<Index> {
     u16_in_hexadecimal(text).filter(|index| *index != 0).map(Index)
 }
 
-/// A number with `0x`: of four digits without it nobody knows which number they are.
+/// A number with `0x`: without it, four digits can be either number.
 fn u16_in_hexadecimal(text: &str) -> Option<u16> {
     let value = scalar::integer(text).ok().filter(|_| text.starts_with("0x") || text.starts_with("0X"))?;
     u16::try_from(value).ok()
@@ -106,7 +106,7 @@ pub(crate) fn run_with_0x(text: &str) -> Option<String> {
 
 /// A run of something, or one alone, which is the first and the last.
 fn run<T: Copy + PartialOrd>(text: &str, one: impl Fn(&str) -> Option<T>) -> Option<(T, T)> {
-    // Nearly all stand alone.
+    // Nearly all are alone.
     let Some(dots) = text.as_bytes().windows(2).position(|pair| pair == b"..") else {
         return one(text.trim()).map(|one| (one, one));
     };

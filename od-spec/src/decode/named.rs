@@ -13,7 +13,7 @@ use crate::yaml::{Node, NodeKind};
 /// Keys whose texts are about what other issues of the manual print.
 const ABOUT_OTHER_ISSUES: [&str; 4] = ["errata", "history", "revision", "source"];
 
-/// What stands before an object that is meant, in small letters.
+/// What is written before an object that is meant, in lower case.
 static POINTERS: LazyLock<Vec<&str>> =
     LazyLock::new(|| ["see", "object", "objects"].into_iter().flat_map(Language::words_of_all).collect());
 

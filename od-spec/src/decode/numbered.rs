@@ -39,7 +39,7 @@ pub(super) fn by_integer<'a>(
     numbered(entries, integer, diagnostics, codes::DUPLICATE_VALUE, |number| format!("{what} {number}"))
 }
 
-/// Two keys stand for one number.
+/// Two keys mean one number.
 pub(super) fn twice(
     code: &'static Code,
     number: &str,

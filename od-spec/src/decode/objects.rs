@@ -57,7 +57,7 @@ pub(super) fn objects<'a>(
     list
 }
 
-/// Reads what is described at an index or a run of indices; `place` stands for it.
+/// Reads what is described at an index or a run of indices; `place` represents it.
 fn add(
     range: IndexRange,
     place: Span,
@@ -124,7 +124,7 @@ fn belong_to_different_devices(list: &mut [ObjectDecl], first: usize, diagnostic
     }
 }
 
-/// The objects of a run of indices, all like the first but for their numbers.
+/// The objects of a run of indices, all like the first except for their numbers.
 fn run(
     one: &ObjectDecl,
     key: Span,
@@ -132,7 +132,7 @@ fn run(
     last: Index,
     diagnostics: &mut Diagnostics,
 ) -> Vec<ObjectDecl> {
-    check_numbered(&one.entry, "objects", "it stands for 1, 2, and so on", diagnostics);
+    check_numbered(&one.entry, "objects", "it means 1, 2, and so on", diagnostics);
     let copies = (1..).zip(first.0..=last.0).map(|(number, index)| {
         let mut copy = ObjectDecl { index: Spanned::new(Index(index), key), ..one.clone() };
         number_names(&mut copy.entry, number);
@@ -219,7 +219,7 @@ fn object(
     if decl.entries() == 1 {
         return decl;
     }
-    // What stands beside `elements:` or `record:` is about each of them.
+    // What is next to `elements:` or `record:` is about each of them.
     let of = |key: &str| r.node.get(key).map_or(0, Node::weight);
     let elements = r.child("array").and_then(|child| child.node.get("elements")).map_or(0, Node::weight);
     let common = written.saturating_sub(of("record")).saturating_sub(elements);
@@ -237,8 +237,8 @@ enum Kind {
     Members,
 }
 
-/// Reads elements or members; a run of sub-indices makes one for each of them. `repeated` grows by the bytes that stand once for
-/// several.
+/// Reads elements or members; a run of sub-indices makes one for each of them. `repeated` grows by the bytes that are
+/// written once for several.
 fn members<'a>(
     entries: impl Iterator<Item = (Spanned<&'a str>, Reader<'a>)>,
     kind: Kind,
@@ -275,8 +275,8 @@ fn members<'a>(
         }
         *repeated = repeated.saturating_add(text);
         let (what, number) = match kind {
-            Kind::Elements => ("elements", "it stands for the sub-index"),
-            Kind::Members => ("members", "it stands for 1, 2, and so on"),
+            Kind::Elements => ("elements", "it means the sub-index"),
+            Kind::Members => ("members", "it means 1, 2, and so on"),
         };
         check_numbered(&one, what, number, diagnostics);
         for (count, sub) in (1..).zip(range.subs()) {

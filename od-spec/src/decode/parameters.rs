@@ -1,4 +1,4 @@
-//! Parameter files, and maps of settings wherever they stand.
+//! Parameter files, and maps of settings wherever they are.
 
 use super::entry::default;
 use super::read::{Reader, owned};

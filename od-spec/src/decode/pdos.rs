@@ -93,7 +93,7 @@ fn list(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<PdoDecl> {
     list
 }
 
-/// A list that stands in one line, else its key.
+/// A list in one line, else its key.
 fn place_of_list(key: Span, list: &Node) -> Span {
     let one_line =
         list.span.file == key.file && list.items().last().is_none_or(|last| last.span.end < list.span.end);

@@ -39,7 +39,7 @@ impl<'a> Reader<'a> {
         Some((name.span, self.at(node)))
     }
 
-    /// The values of a list, or the one value that stands in its place.
+    /// The values of a list, or the one value in its place.
     pub(super) fn items(self, key: &str) -> impl Iterator<Item = Self> {
         let nodes = self.node.get(key).map(Node::one_or_more).unwrap_or_default();
         nodes.iter().map(move |node| self.at(node))
@@ -105,7 +105,7 @@ impl<'a> Reader<'a> {
         self.scalar(|text| Some(text.to_owned())).or_else(|| self.text(key))
     }
 
-    /// Whether a key was refused, or the node is no map at all.
+    /// Whether a key was refused, or the node is not a map at all.
     pub(super) fn has_unknown_key(self, keys: &Keys) -> bool {
         let known = |name: &str| keys.get(name).is_some();
         let mut names = self.node.entries().iter().map(|(name, _)| name.value.as_str());
@@ -181,7 +181,7 @@ impl FromNode for Text {
 
 /// A field of a declaration, which one key fills.
 pub(super) trait Field: Sized {
-    /// Reads what stands under the key, if it does.
+    /// Reads what is under the key, if the key is there.
     fn read(reader: Reader<'_>, key: &str, diagnostics: &mut Diagnostics) -> Self;
 }
 

@@ -12,8 +12,8 @@ use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::yaml::{MERGE, Node, NodeKind};
 
-/// Checks a map with fixed keys and everything below it. `owner` is the place that stands
-/// for the whole map: the key it belongs to.
+/// Checks a map with fixed keys and everything below it. `owner` is the place that represents
+/// the whole map: the key it belongs to.
 pub(super) fn check_map(node: &Node, keys: &Keys, owner: Span, diagnostics: &mut Diagnostics) {
     let NodeKind::Map(entries) = &node.kind else {
         wrong_kind(node, &format!("the keys of {}", keys.name), diagnostics);
@@ -52,7 +52,7 @@ fn unknown_key(name: &Spanned<String>, value: &Node, keys: &Keys, diagnostics: &
     // What has a key and a colon needs no guess at another key.
     if let Some(pair) = without_blank(&name.value, keys).filter(|_| value.kind == NodeKind::Null) {
         let help = format!("write `{}`", shorten(&pair));
-        diagnostics.push(diagnostic.label("no blank behind the colon").help(help).edit(name.span, pair));
+        diagnostics.push(diagnostic.label("no space after the colon").help(help).edit(name.span, pair));
         return;
     }
     let meant = diagnostics.suggestions.nearest(&name.value, known.clone());
@@ -200,14 +200,14 @@ pub(super) fn check(node: &Node, shape: Shape, owner: Span, diagnostics: &mut Di
                     node.span,
                     format!("found {}, expected {}", node.describe(), expected(shape)),
                 )
-                .help("write one text: names are the same in every language; descriptions such as `about` can be told by language"),
+                .help("write one text: names are the same in every language; descriptions such as `about` can be written by language"),
             ),
             None => wrong_kind(node, expected(shape), diagnostics),
         },
     }
 }
 
-/// The place that stands for a value without a key of its own: a map's first key.
+/// The place that represents a value without a key of its own: a map's first key.
 pub(in crate::decode) fn start(node: &Node) -> Span {
     node.entries().first().map_or(node.span, |(name, _)| name.span)
 }
@@ -404,7 +404,7 @@ fn check_integer(text: Spanned<&str>, low: i128, high: i128, diagnostics: &mut D
     }
 }
 
-/// The version of the language: what another one means, nobody can tell from here.
+/// The version of the language: what another one means is unknown here.
 fn check_version(text: Spanned<&str>, diagnostics: &mut Diagnostics) {
     if scalar::integer(text.value) != Ok(VERSION) {
         let message = format!("found version `{}` of the language, expected {VERSION}", shorten(text.value));
@@ -433,7 +433,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
             text,
             without_names(value, &mut AnyName),
             "condition",
-            "conditions look like `0x30FA.3 < 0x30FA.1 <= 750` or `bit(0x6041, 2) == 0`; entries and bits may stand by name",
+            "conditions look like `0x30FA.3 < 0x30FA.1 <= 750` or `bit(0x6041, 2) == 0`; entries and bits may be written by name",
             diagnostics,
         ),
         Shape::Formula => unreadable(
@@ -477,7 +477,7 @@ fn check_scalar(text: Spanned<&str>, shape: Shape, diagnostics: &mut Diagnostics
     }
 }
 
-/// Tells what to write in the place of a scalar that cannot be read.
+/// Says what to write in the place of a scalar that cannot be read.
 fn with_meant(diagnostic: Diagnostic, text: &str, shape: Shape) -> Diagnostic {
     let is_run = matches!(shape, Shape::Entries) && text.contains("..");
     let turned = lexical::turned(text).filter(|run| is_run && lexical::run_by_index(run).is_some());
@@ -509,7 +509,7 @@ pub(crate) fn inside(text: Spanned<&str>, range: &std::ops::Range<usize>) -> Spa
     }
 }
 
-/// The placeholders of a name are there, and have a number where it stands.
+/// The placeholders of a name are there, and have a number where it is.
 fn check_numbered(text: Spanned<&str>, of: NumberedName, diagnostics: &mut Diagnostics) {
     let has_number = |placeholder: &Placeholder| match of {
         NumberedName::Parameter => !placeholder.is_of_entry(),

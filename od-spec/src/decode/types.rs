@@ -14,7 +14,8 @@ unit_keys! { reader fn written(name: Name) -> UnitDecl }
 
 pub(super) fn unit(name: Spanned<&str>, reader: Reader<'_>, diagnostics: &mut Diagnostics) -> UnitDecl {
     let unit = written(owned(name), reader, diagnostics);
-    // A unit whose scale cannot be read is no unit of scale 1, and one whose offset cannot be read does not count from 0.
+    // A unit whose scale cannot be read is not a unit of scale 1, and one whose offset cannot be read does not count
+    // from 0.
     let unreadable = |key: &str, readable: bool| reader.node.get(key).is_some() && !readable;
     let broken = unreadable("scale", unit.scale.is_some())
         || unreadable("offset", unit.offset.is_some())

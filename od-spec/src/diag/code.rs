@@ -21,7 +21,7 @@ pub struct Code {
     pub explanation: &'static str,
     /// The clause of the standard that the rule follows.
     pub clause: Option<&'static str>,
-    /// A text that is wrong, and the same one put right.
+    /// A text that is wrong, and the same one corrected.
     pub example: Option<Example>,
 }
 
@@ -34,7 +34,7 @@ pub struct Example {
     pub language: Language,
     /// What the rule refuses.
     pub before: &'static str,
-    /// The same, put right.
+    /// The same, corrected.
     pub after: &'static str,
 }
 
@@ -53,7 +53,7 @@ pub enum Language {
     Plant,
     /// An XDD.
     Xdd,
-    /// A concise DCF: its bytes as hexadecimal digits, with remarks behind `#`.
+    /// A concise DCF: its bytes as hexadecimal digits, with remarks after `#`.
     Concise,
 }
 

@@ -1,5 +1,5 @@
 //! The messages about texts, names and files: what reading, looking up and writing can say. The code of a rule over the
-//! model stands with the rule, in `check`.
+//! model is with the rule, in `check`.
 
 use super::{Code, Example, Severity};
 
@@ -36,12 +36,12 @@ codes! {
         "Specifications of more than 64 MiB are refused before they are read: the largest real one has a few megabytes, so this is probably the wrong file."
     YAML_SYNTAX Error "OD0104" "a file is not YAML":
         "The YAML reader stopped at the marked place. Frequent causes: a tab in the indentation, a text that holds `: ` or ` #` without quotes, a bracket that is not closed. Everything before the place was understood, nothing after it was read."
-    DUPLICATE_KEY Error "OD0105" "a key stands twice in a map":
+    DUPLICATE_KEY Error "OD0105" "a key is written twice in a map":
         "YAML readers disagree about which of two equal keys wins; in an object dictionary a silently dropped entry is the worst of mistakes. Remove one of the two or join their values."
     UNKNOWN_ANCHOR Error "OD0106" "an alias refers to nothing":
-        "A YAML alias `*name` repeats the value that carries the anchor `&name` before it. There is no such anchor, or the alias stands inside the very value it would repeat."
+        "A YAML alias `*name` repeats the value that carries the anchor `&name` before it. There is no such anchor, or the alias is inside the very value it would repeat."
     ALIAS_BOMB Error "OD0107" "aliases expand to too much":
-        "Aliases of aliases multiply: a few lines can stand for billions of values. Expansion stops at 1 MiB and 256 bytes for each byte of the file, but at 16 MiB at the latest, where each value counts 64 bytes beside its text. Name a type once under `types:` instead of repeating values by alias."
+        "Aliases of aliases multiply: a few lines can expand to billions of values. Expansion stops at 1 MiB and 256 bytes for each byte of the file, but at 16 MiB at the latest, where each value counts 64 bytes in addition to its text. Name a type once under `types:` instead of repeating values by alias."
     TOO_DEEP Error "OD0108" "lists and maps are nested too deep":
         "More than 64 levels of nesting. No specification needs that depth; usually a bracket is missing."
     YAML_TAG Error "OD0109" "a YAML tag":
@@ -54,50 +54,50 @@ codes! {
         "The keys of this map have a fixed form: indices under `objects:`, bits under `bits:`, and so on; YAML merge keys (`<<`) and lists or maps as keys are not part of the language."
     MISSING_LIBRARY Error "OD0113" "a used library cannot be read":
         "`uses:` names a built-in library (`odgen library` lists them) or the path of a library file, relative to the file that names it. There is no such library."
-    NOT_A_LIBRARY Error "OD0114" "a used file is no library":
+    NOT_A_LIBRARY Error "OD0114" "a used file is not a library":
         "A file named in `uses:` needs `profile: NAME` at its top level, which gives the name that `from:` uses. Libraries cannot use other libraries."
     TURNED_TEXT Error "OD0115" "a character that hides what a text says":
-        "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what stands there: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape. A setting of a node has no escapes, and holds no control character either."
+        "Some characters of Unicode change the direction in which the text around them is shown (U+202A to U+202E, U+2066 to U+2069, U+061C, U+200E, U+200F). What a person reads is then not what is written: an access right or a limit can look like another. No specification needs them; letters of every script have a direction of their own. Remove the character, also where it is written as an escape. A setting of a node has no escapes, and holds no control character either."
     TOO_MUCH Error "OD0116" "a file describes too much":
-        "A few lines can stand for millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, the places of errata name at most 20,000 tables, a sequence of events has 64 steps and 32 signals, a picture of switches 32 of them, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below: is a run, a `count:` or a list of devices wrong? A family of devices that is really larger goes into several files."
+        "A few lines can describe millions of entries: a run of indices, arrays in it, objects that many devices have. A file describes at most 1,000 devices and 200,000 entries, a device has at most 100,000, a state machine 256 states, the places of errata name at most 20,000 tables, a sequence of events has 64 steps and 32 signals, a picture of switches 32 of them, and what is written once and repeated may not be more than 64 MiB of text. The largest devices are far below these limits: is a run, a `count:` or a list of devices wrong? A family of devices that is really larger goes into several files."
     MISSING_PART Error "OD0117" "a part cannot be read":
         "`parts:` names files that hold more of the specification, each relative to the file that names it. There is no such file, or it may not be read."
-    NOT_A_PART Error "OD0118" "a file that is no part of the specification":
-        "A file named under `parts:` has `part-of:` at its top level, with the name of the specification. Whoever opens it, and every tool, can tell from this line that it is not whole, and where the rest is. A file of objects for several specifications is a library and stands under `uses:`."
+    NOT_A_PART Error "OD0118" "a file that is not part of the specification":
+        "A file named under `parts:` has `part-of:` at its top level, with the name of the specification. This line shows readers and tools that it is not whole, and where the rest is. A file of objects for several specifications is a library and is named under `uses:`."
     PART_ALONE Error "OD0119" "a part without its specification":
-        "A file with `part-of:` holds sections of another file; units, types and devices that it refers to may stand there. Compile that file, which names its parts under `parts:`. `odgen` does so by itself when it is given a part and finds the specification."
+        "A file with `part-of:` holds sections of another file; units, types and devices that it refers to may be in that file. Compile that file, which names its parts under `parts:`. `odgen` does so by itself when it is given a part and finds the specification."
     NO_SPECIFICATION Error "OD0120" "a parameter or plant file in the place of a specification":
-        "A file that begins with `od-parameters:` says how one device is set up, one that begins with `od-plant:` which nodes a plant has. Neither describes a device: both are read beside the specification that does. `odgen dcf SPEC --params FILE --explain` checks a parameter file without writing anything, `odgen plant check FILE` a plant. `odgen fmt` lays out all three."
+        "A file that begins with `od-parameters:` says how one device is set up, one that begins with `od-plant:` which nodes a plant has. Neither describes a device: both are read together with the specification that does. `odgen dcf SPEC --params FILE --explain` checks a parameter file without writing anything, `odgen plant check FILE` a plant. `odgen fmt` lays out all three."
     OTHER_BUS Error "OD0121" "a file of something else than CANopen":
-        "Other fieldbuses have files of the same names: an EDS of EtherNet/IP or DeviceNet has the sections [File] and [Device], an XDD of POWERLINK a body for its own network. Nothing is read of them, written from them or put right in them. A file that is named as an EDS and has no section is none either."
+        "Other fieldbuses have files of the same names: an EDS of EtherNet/IP or DeviceNet has the sections [File] and [Device], an XDD of POWERLINK a body for its own network. Nothing is read of them, written from them or fixed in them. A file that is named as an EDS but has no section is not an EDS either."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
         "A key that the language does not have at this place. Nothing is ignored silently: a misspelt `acces: ro` would otherwise change an access right. `odgen reference` lists all keys."
     WRONG_KIND Error "OD0202" "a value of the wrong kind":
-        "A list stands where one value is expected, a text where a map is, or the like."
+        "A list is where one value is expected, a text where a map is expected, or the like."
     MISSING_KEY Error "OD0203" "a missing key":
         "The map cannot be understood without this key."
     BAD_NUMBER Error "OD0204" "not a number":
-        "Numbers are decimal, or hexadecimal (`0x`), binary (`0b`) or octal (`0o`), with `_` between digits if you like. A decimal number must not start with `0`, because CiA 306 files read such a number as octal."
+        "Numbers are decimal, or hexadecimal (`0x`), binary (`0b`) or octal (`0o`), with `_` between digits if you like. A decimal number must not start with `0`, because files of CiA 306 read such a number as octal."
     NUMBER_OUT_OF_RANGE Error "OD0205" "a number outside its range":
         "The key takes numbers from a fixed range only."
     BAD_NOTATION Error "OD0206" "a value that is not written as it should be":
-        "Dates are `2009-05-27`, indices `0x6040`, entries `0x30FA.3`, ratios `1/10`, conditions `0x607D.1 < 0x607D.2`. The message tells which notation the place expects."
+        "Dates are `2009-05-27`, indices `0x6040`, entries `0x30FA.3`, ratios `1/10`, conditions `0x607D.1 < 0x607D.2`. The message states which notation the place expects."
     UNKNOWN_WORD Error "OD0207" "an unknown word":
         "The key takes one of a few words."
     CONFLICTING_KEYS Error "OD0208" "keys that exclude each other":
         "Only one of these keys can be true of one thing: an object is an array or a record, a type an enum or a bit field, a table has one content."
     DUPLICATE_INDEX Error "OD0301" "an index is defined twice":
-        "Two objects have one index, perhaps in two notations (`0x1A00` and `0x1a00`), in a run, or in two files, or one device has two of the objects that are listed under an index for different devices. Readers of YAML that keep the last one would lose the first without a word."
+        "Two objects have one index, perhaps in two notations (`0x1A00` and `0x1a00`), in a run, or in two files, or one device has two of the objects that are listed under an index for different devices. Readers of YAML that keep the last one would silently lose the first."
     DUPLICATE_SUB_INDEX Error "OD0302" "a sub-index is defined twice":
         "Two entries of one object have one sub-index, perhaps in two notations (`10` and `0x0A`)."
-    DUPLICATE_VALUE Error "OD0304" "a number stands for two things":
+    DUPLICATE_VALUE Error "OD0304" "a number has two meanings":
         "Two values of an enum, two special values, two transitions, two error codes, two tables or two figures have one number, or a bit reports one error code twice."
     NO_DEVICE Error "OD0305" "no device":
         "Without a device there is no dictionary to build. Add `devices:`; a file that is meant to be used by others needs `profile:` instead."
     UNKNOWN_DEVICE Error "OD0306" "an unknown device":
         "Objects, errors, errata, PDOs, conditions and defaults by device name devices by their key under the `devices:` of the file."
     UNKNOWN_LIBRARY Error "OD0307" "an unknown library":
-        "`from:` names a library by its `profile:` name; the library must stand in `uses:`."
+        "`from:` names a library by its `profile:` name; the library must be in `uses:`."
     UNKNOWN_FEATURE Error "OD0308" "an unknown feature":
         "`features:` of a device names groups of objects that the used libraries offer."
     NOT_IN_LIBRARY Error "OD0309" "an object that the library does not define":
@@ -109,9 +109,9 @@ codes! {
     UNKNOWN_STATE Error "OD0312" "an unknown state or transition":
         "Transitions name states, and commands name transitions, of the same state machine."
     PDO_DESCRIBED_TWICE Error "OD0317" "a PDO that is described twice":
-        "The parameter objects of a PDO, 1400h to 1BFFh, are made from `pdos:`, or one or both of them are written in full under `objects:`. A PDO that stands in both places would have two descriptions."
+        "The parameter objects of a PDO, 1400h to 1BFFh, are made from `pdos:`, or one or both of them are written in full under `objects:`. A PDO that is in both places would have two descriptions."
     LIKE_ITSELF Error "OD0324" "an object that is like itself":
-        "`like:` takes what is not written from another object. Objects that are like each other in a circle, or one that is like itself, leave nobody to say what they are. Describe one of them in full."
+        "`like:` takes what is not written from another object. Objects that are like each other in a circle, or one that is like itself, would leave their type undefined. Describe one of them in full."
     DIFFERENT_OBJECTS Error "OD0325" "a reference to different objects":
         "Devices of one file may have different objects at one index. What names the index for several of these devices, a condition, an erratum or a state machine, would mean another object on each. Say for which device it is."
     WRONG_CAUSE Error "OD0326" "a step that answers no earlier one":
@@ -126,7 +126,7 @@ codes! {
         "`sections:` of a device's `eds:` holds keys and sections that do not follow from the specification, such as `SRDOMapping`, keys of a maker, and modules. This key or section follows from the specification, and the EDS could contradict it. Remove it, and use the key that the help names."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."
-    BAD_FORMULA Error "OD0402" "a node-ID formula that is none":
+    BAD_FORMULA Error "OD0402" "not a valid node-ID formula":
         "CiA 306 knows `$NODEID` and at most one number added to it, nothing else. Tools read any other form as an ordinary number or refuse the file."
     WRONG_SYMBOL Error "OD0405" "a physical value in a foreign unit":
         "A physical value carries the symbol of the entry's unit, or of the unit's base."
@@ -139,7 +139,7 @@ codes! {
     OVERLAPPING_BITS Error "OD0410" "overlapping bits":
         "Two fields of a bit field claim one bit."
     BITS_MISSING Error "OD0411" "bits without a meaning":
-        "A bit field says something about every bit, and be it `reserved` or `unused`; otherwise a forgotten row of the manual would go unnoticed. `rest: reserved` covers what is not listed."
+        "A bit field describes every bit, at least as `reserved` or `unused`; otherwise a forgotten row of the manual would go unnoticed. `rest: reserved` covers what is not listed."
     UNKNOWN_BIT Error "OD0413" "a bit that does not exist":
         "`bit-errors:` and a `default:` that is a list name bits of the entry's bit field type, and so does a condition; a signal of `timing:` names one of its `type:`."
     BAD_ALIAS Error "OD0418" "an alias that cannot show its target":
@@ -149,13 +149,13 @@ codes! {
     DUPLICATE_PDO Error "OD0501" "a PDO is defined twice":
         "Two PDOs of one device and direction have one number."
     PATTERN_WIDTH Error "OD0603" "a bit pattern of the wrong width":
-        "A state or command pattern has one place for each bit of the entry it describes, which is of an integer type: the bits of a text, a REAL or a time are no states."
+        "A state or command pattern has one place for each bit of the entry it describes, which is of an integer type: the bits of a text, a REAL or a time are not states."
     COMMAND_MISMATCH Error "OD0604" "a command code against its pattern":
         "The value under `send:` does not have the bits that `pattern:` demands."
     AMBIGUOUS_STATES Error "OD0605" "states that look the same":
         "One value of the status entry would show two states at once."
     WRONG_TRANSITION Error "OD0612" "a transition whose cause cannot be":
-        "`by-device:` says how the device makes a transition that nobody commands. The start has no other cause; a transition that is made by itself and leaves the state that it enters would never end; and one that the device never makes needs a command."
+        "`by-device:` says how the device makes a transition without a command. The start has no other cause; a transition that is made by itself and leaves the state that it enters would never end; and one that the device never makes needs a command."
     REGISTER_OF_NO_ERROR Error "OD0613" "bits of the error register without an error":
         "Codes 00xxh say that an error is gone, or that there is none. The error register (1001h) has the bits of the errors that are present."
     CONSTRAINT_DEVICES Error "OD0607" "a constraint across devices":
@@ -169,7 +169,7 @@ codes! {
     BAD_NODE_ID Error "OD0701" "not a node-ID":
         "Node-IDs are 1 to 127."
     BAD_ASSIGNMENT Error "OD0702" "a parameter setting that cannot be understood":
-        "A setting is `ENTRY=VALUE`: the entry by index (`607D.2`, or as in an EDS `607Dsub2`; the index is hexadecimal) or by name, the value as the specification writes it. Behind a colon (`607D:2`) some tools count in decimal and others in hexadecimal: a sub-index that is not the same in both is refused there."
+        "A setting is `ENTRY=VALUE`: the entry by index (`607D.2`, or as in an EDS `607Dsub2`; the index is hexadecimal) or by name, the value as the specification writes it. After a colon (`607D:2`) some tools count in decimal and others in hexadecimal: a sub-index that is not the same in both is refused there."
         [Example::parameters(
             "parameters:\n  2004: 7",
             "parameters:\n  2004.1: 7"
@@ -191,58 +191,58 @@ codes! {
     BAD_TEMPLATE Error "OD0711" "a template that cannot be printed":
         "A documentation template has a syntax error, or asks for something that `odgen docs --dump-context` does not show. Nothing was written."
     CONCISE_CUT_OFF Error "OD0712" "a concise DCF that ends too early":
-        "A concise DCF (CiA 302-3, object 1F22h) is the number of its records, 4 bytes, and then the records: index, sub-index, number of bytes, the bytes. The file ends within its number, within the head of a record or within a value; or it has fewer records than it says. A master stops at such a place, after it has written what stands before. Make the file again; a frequent cause are generators that write values of 24, 40, 48 or 56 bits with more bytes than they count."
+        "A concise DCF (CiA 302-3, object 1F22h) is the number of its records, 4 bytes, and then the records: index, sub-index, number of bytes, the bytes. The file ends within its number, within the head of a record or within a value; or it has fewer records than it says. A master stops at such a place, after it has written what comes before. Make the file again; a frequent cause is a generator that writes values of 24, 40, 48 or 56 bits with more bytes than it counts."
         [Example::concise(
             "01 00 00 00              # one record\n04 20 01  02 00 00 00    # 2004h.1, two bytes\n07                       # there is one",
             "01 00 00 00              # one record\n04 20 01  02 00 00 00    # 2004h.1, two bytes\n07 00"
         )]
     CONCISE_TOO_LONG Error "OD0713" "a concise DCF with more than its records":
-        "Behind as many records as a concise DCF says it has, the file goes on. A master never sees that part. Either the number at the beginning is too small, or the file is none of this kind."
+        "The file goes on after as many records as it says it has. A master never sees that part. Either the number at the beginning is too small, or the file is not a concise DCF."
         [Example::concise(
-            "00 00 00 00                    # no record\n04 20 01  02 00 00 00  07 00   # and one all the same",
+            "00 00 00 00                    # no record\n04 20 01  02 00 00 00  07 00   # but there is one",
             "01 00 00 00                    # one record\n04 20 01  02 00 00 00  07 00"
         )]
     BAD_TRACE_LINE Error "OD0714" "a line of a trace that cannot be read":
-        "A trace has a frame on each line: as `candump -L` logs it, `(1700000000.123456) can0 181#0102`; as `candump` prints it, `can0  181   [2]  01 02`; as an adapter with SLCAN sends it, `t18120102`; or, behind the first lines of such a file, as a `.trc` of PCAN-View (1.0 to 1.3, 2.0, 2.1) or an `.asc` of CANalyzer has it. Empty lines, those that begin with `#` or `;`, and what a `.trc` or `.asc` says about the tool and the state of its adapter are left out. Every other line is read or reported, so that no frame is missed in silence; the lines behind it are read all the same."
+        "A trace has a frame on each line: as `candump -L` logs it, `(1700000000.123456) can0 181#0102`; as `candump` prints it, `can0  181   [2]  01 02`; as an adapter with SLCAN sends it, `t18120102`; or, after the first lines of such a file, as a `.trc` of PCAN-View (1.0 to 1.3, 2.0, 2.1) or an `.asc` of CANalyzer has it. Empty lines, those that begin with `#` or `;`, and what a `.trc` or `.asc` says about the tool and the state of its adapter are left out. Every other line is read or reported, so that no frame is missed in silence; the lines after it are still read."
     NO_CONNECTION Error "OD0715" "a way to a bus that cannot be used":
-        "`odgen serve` listens at an address of this machine, to which clients connect: the address is that of another machine, another program listens at the port, or the user may not use it; or the link to its pseudo-terminal cannot be made where it is to be. `odgen node` connects to an address or a serial port at which a CAN adapter speaks SLCAN: nobody is there, or it is no such adapter, or the adapter refuses to open its channel at the bit rate. A CAN interface (`--socketcan`) has to be there and up: `ip link set can0 up type can bitrate 125000`, as root. Pseudo-terminals and CAN interfaces are those of Linux; elsewhere there is SLCAN over TCP."
+        "`odgen serve` listens at an address of this machine, to which clients connect: the address is that of another machine, another program listens at the port, or the user may not use it; or the link to its pseudo-terminal cannot be made where it is to be. `odgen node` connects to an address or a serial port at which a CAN adapter speaks SLCAN: nothing answers there, or it is not such an adapter, or the adapter refuses to open its channel at the bit rate. A CAN interface (`--socketcan`) has to be there and up: `ip link set can0 up type can bitrate 125000`, as root. Pseudo-terminals and CAN interfaces are those of Linux; elsewhere there is SLCAN over TCP."
     ACCESS_FAILED Error "OD0716" "an access to a node that failed":
         "`odgen node` asked a node on a bus to read or write an entry. Either the node refused: the message has its abort code, in numbers and in words. A value may be right by itself and refused in the present state of the device, as while it is locked, or because of what another entry holds. Or it did not answer: it is switched off or stopped, has another node-ID, or the bus has another bit rate. Or it took the value, and has another one when it is read back. What was written before is written; the message says what was not."
     OTHER_DEVICE Error "OD0717" "a node that is another device":
-        "`odgen node` asks a node first what it is: its device type (1000h), vendor (1018h.1), product code (1018h.2) and revision (1018h.3), as far as the specification states them, and its serial number (1018h.4), where the plant or the parameter file does. This node says otherwise. A higher minor revision (the lower 16 bits) is compatible by CiA 301 and accepted. On another device the same indices can mean other things, with other units and limits, so that nothing is read from it or written to it under the names of this one. Name the specification and the device of the node, or the right node-ID. `--any-serial` accepts another serial number, as a spare part has it, `--any-revision` another revision; `--any-device` asks nothing."
+        "`odgen node` asks a node first what it is: its device type (1000h), vendor (1018h.1), product code (1018h.2) and revision (1018h.3), as far as the specification states them, and its serial number (1018h.4), where the plant or the parameter file does. This node reports another value. A higher minor revision (the lower 16 bits) is compatible by CiA 301 and accepted. On another device the same indices can mean other things, with other units and limits, so that nothing is read from it or written to it under the names of this one. Name the specification and the device of the node, or the right node-ID. `--any-serial` accepts another serial number, such as that of a spare part, `--any-revision` another revision; `--any-device` asks nothing."
     NO_TERMINAL Error "OD0718" "something that needs a terminal":
-        "`odgen serve --watch` draws on the terminal and takes its keys. Standard input and output have to be that terminal, and no file or pipe; a script comes from a file then, and not from standard input. `odgen serve --log` tells every frame in words without a terminal, and `odgen node monitor` tells what changes on any bus. Commands of `odgen node` that change a node show the changes first and ask at the terminal. Scripts use `--yes`, or `--dry-run` to see the changes only."
+        "`odgen serve --watch` draws on the terminal and takes its keys. Standard input and output have to be that terminal, and no file or pipe; a script comes from a file then, and not from standard input. `odgen serve --log` prints every frame in words without a terminal, and `odgen node monitor` prints what changes on any bus. Commands of `odgen node` that change a node show the changes first and ask at the terminal. Scripts use `--yes`, or `--dry-run` to see the changes only."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
-        "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set all the same, so that nobody overwrites factory data by accident. This entry has no lock: a name that is wrong here would leave the entry that was meant without the look at it. Remove it, or name the entry that is locked."
+        "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set anyway, so that factory data is not overwritten by accident. This entry has no lock: with a wrong name here, the entry that was meant would not be looked at. Remove it, or name the entry that is locked."
         [Example::parameters(
             "parameters: {calibration: 101}\nunlock: [calibration, lowest voltage]",
             "parameters: {calibration: 101}\nunlock: [calibration]"
         )]
     UNKNOWN_IN_PLANT Error "OD0730" "a name that the plant does not have":
-        "What is said of a type, a position or a device at a position has to be about one that there is: on a machine that has no such thing, nothing would happen, and nobody would notice. Types stand under `types:`; the positions of a machine and the devices there are those of its type. A machine with other devices is of another type."
+        "What a plant states about a type, a position or a device at a position has to be about one that exists: on a machine without it, nothing would happen, and the mistake would go unnoticed. Types are under `types:`; the positions of a machine and the devices there are those of its type. A machine with other devices is of another type."
         [Example::plant(
             "sites:\n  Hall: {type: P2, machines: {1..3: {}}}",
             "sites:\n  Hall: {type: P1, machines: {1..3: {}}}"
         )]
     OVERLAPPING_RUNS Error "OD0731" "runs of machines that cross":
-        "Of two runs of machines one lies in the other or they have no machine in common: what is said of the smaller run lies over what is said of the larger one. Here some machines are in both and neither lies in the other, so that nobody knows what holds for them. Split one of the runs."
+        "Of two runs of machines, one contains the other or they have no machine in common: what is stated for the smaller run overrides what is stated for the larger one. Here some machines are in both and neither contains the other, so that it is not defined what holds for them. Split one of the runs."
         [Example::plant(
             "sites:\n  Hall: {type: P1, machines: {1..5: {comment: old}, 4..8: {comment: new}}}",
             "sites:\n  Hall: {type: P1, machines: {1..3: {comment: old}, 4..8: {comment: new}}}"
         )]
     TOO_MANY_NODES Error "OD0733" "a plant with too many nodes":
-        "A few lines can stand for millions of nodes. A plant may have 100,000 of them; the largest have some thousands. Correct the run, or make a plant file for each site."
+        "A few lines can describe millions of nodes. A plant may have 100,000 of them; the largest have some thousands. Correct the run, or make a plant file for each site."
         [Example::plant(
             "sites:\n  Hall: {type: P1, machines: {1..60000: {}}}",
             "sites:\n  Hall: {type: P1, machines: {1..60: {}}}"
         )]
     DEPARTURE Note "OD0811" "a departure from a standard":
-        "The specification takes the object from a library of a standard and says something else about it. That is its right: the maker's word goes before the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
-    OPEN_GAP Warning "OD0841" "a gap that nobody has filled":
-        "`odgen new` writes examples where only the author knows the value, such as the vendor-ID, and marks them with the comment `# <--`. A device must not leave with them. Write the value and remove the comment."
+        "The specification takes the object from a library of a standard and states something different about it. That is allowed: the maker's word takes precedence over the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
+    OPEN_GAP Warning "OD0841" "an open gap":
+        "`odgen new` writes examples where only the author knows the value, such as the vendor-ID, and marks them with the comment `# <--`. A device must not be delivered with them. Write the value and remove the comment."
     REGISTER_AGAINST_CLASS Warning "OD0845" "an error register against the class of the error":
-        "The first digits of an error code are its class (CiA 301 table 21): current, voltage, temperature, communication, or the manufacturer's own. Whoever reads the error register (1001h) expects the bit of that class. `register:` names other bits and not this one: add it, or give the error a code of the class that is meant."
-    MACHINE_BESIDE_RUNS Warning "OD0850" "a machine beside the runs":
+        "The first digits of an error code are its class (CiA 301 table 21): current, voltage, temperature, communication, or the manufacturer's own. A master that reads the error register (1001h) expects the bit of that class. `register:` names other bits and not this one: add it, or give the error a code of the class that is meant."
+    MACHINE_BESIDE_RUNS Warning "OD0850" "a machine outside the runs":
         "The site counts its machines in runs, and this number is in none of them: it makes one more machine. If one of the others was meant, correct the number; if there is such a machine, make a run longer, or write it as a run of its own, `17..17`."
         [Example::plant(
             "sites:\n  Hall: {type: P1, machines: {1..10: {}, 11: {}}}",
@@ -281,19 +281,19 @@ codes! {
             "revision: {number: \"1.1\", date: 2020-05-27}\nhistory: [{number: \"1.0\", date: 2019-02-01}, {number: \"1.1\", date: 2020-05-27}]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro}"
         )]
     STACK_DIFFERS Warning "OD0860" "something that the stack wants set up":
-        "CANopenNode has a configuration of its own, and takes some things otherwise than the dictionary says. The files are made and compile; the message tells what is to be done in the project that takes them, or what is different on the bus."
+        "CANopenNode has a configuration of its own, and treats some things differently from the dictionary. The files are made and compile; the message says what to do in the project that takes them, or what is different on the bus."
     COB_ID_OF_OTHER_NODE Warning "OD0861" "a COB-ID of the node-ID that a file is for":
-        "A DCF or XDC is the configuration of one node, and a command takes it for another node-ID. Values that the node-ID formula of their default gives follow the node-ID. This COB-ID does not: the file has a number without a formula, and it is one of those that CiA 301 reserves for the first node-ID (table 34). If both nodes are on one bus, both send the same message, or receive what is meant for the other. Many tools resolve `$NODEID` when they write a DCF, so that its defaults are numbers as well: make the file of another node from the EDS or the specification. A COB-ID that is meant like this can be set on purpose."
+        "A DCF or XDC is the configuration of one node, and a command uses it for another node-ID. Values that the node-ID formula of their default gives follow the node-ID. This COB-ID does not: the file has a number without a formula, and it is one of those that CiA 301 reserves for the first node-ID (table 34). If both nodes are on one bus, both send the same message, or receive what is meant for the other. Many tools resolve `$NODEID` when they write a DCF, so that its defaults are numbers as well: make the file of another node from the EDS or the specification. A COB-ID that is meant like this can be set on purpose."
     NAMED_TWICE Warning "OD0894" "a name that is listed twice":
         "A list of devices, features, languages or the like names something twice. Once is enough: probably another name was meant, which is missing now. Remove one of the two, or name what was meant."
     IDENTIFIER_CLASH Error "OD0901" "two things with one identifier":
-        "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ in other characters only cannot both be in it, nor a name and what is made beside another one: `set level` and the setter of `level`. Nothing is renamed silently, as firmware would come to depend on it; only a word that the language or generated code needs itself gets a `_` behind it. Write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
+        "Generated code makes identifiers from names: letters and digits stay, everything else becomes `_`. Two names that differ only in other characters cannot both be in it, nor a name and what is made for another one: `set level` and the setter of `level`. Nothing is renamed silently, because firmware would come to depend on it; only a word that the language or generated code needs itself gets a `_` after it. Write `identifier:` at one of the two objects or entries, or change the name of a type, unit or value."
     NO_IDENTIFIER Error "OD0902" "a name without an identifier":
         "Generated code makes identifiers from the letters and digits of a name, and this one has none. Write `identifier:`."
     NO_CAPACITY Error "OD0903" "a string without a capacity":
         "Generated firmware sets aside memory for every string that can change. Write `capacity:`, the most bytes that the device can hold."
     NOT_IN_FIRMWARE Error "OD0904" "something that generated code cannot do":
-        "Generated code computes with 64-bit integers, addresses entries with 16-bit numbers and their values with 24 bits, and is about at least one object. The message tells which part of the specification needs more."
+        "Generated code computes with 64-bit integers, addresses entries with 16-bit numbers and their values with 24 bits, and is about at least one object. The message names the part of the specification that needs more."
     STACK_REFUSES Error "OD0905" "a device that the stack does not take":
         "CANopenNode does not compile, or does not do what the dictionary says, without certain objects: 1000h, 1001h and 1017h, and a mapping parameter object for each communication parameter object of a PDO, beginning with PDO 1. A dictionary without them would fail somewhere in the stack's own files; so none is made. Add the object, for example with `features:` of the library `cia301`."
     XDD_SYNTAX Error "XDD101" "a file is not well-formed XML":
@@ -303,7 +303,7 @@ codes! {
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"up &amp; down\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
         )]
     XDD_DTD Error "XDD102" "a document type in an XDD":
-        "A document type (`<!DOCTYPE …>`) can define entities that stand for any amount of text, or for files of the reader's machine. An XDD needs none, so that such a file is refused as a whole. Remove the document type."
+        "A document type (`<!DOCTYPE …>`) can define entities that expand to any amount of text, or to files of the reader's machine. An XDD needs none, so that such a file is refused as a whole. Remove the document type."
         [Example::xdd(
             "<!DOCTYPE list [<!ENTITY name \"level\">]>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"&name;\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
@@ -315,7 +315,7 @@ codes! {
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
         )]
     XDD_NO_PLACE Error "XDD201" "an object that cannot be placed":
-        "An object is known by its `index`, a sub-object by its `subIndex`, in hexadecimal digits and each once. One without is left out, as is the second of two: readers disagree about which of them counts."
+        "An object is known by its `index`, a sub-object by its `subIndex`, in hexadecimal digits and each once. One without it is left out, as is the second of two: readers disagree about which of them counts."
         [Example::xdd(
             "<CANopenObjectList>\n  <CANopenObject index=\"level\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
@@ -327,13 +327,13 @@ codes! {
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\"/>\n</CANopenObjectList>"
         )]
     XDD_NO_TYPE Error "XDD203" "an entry without a data type":
-        "Neither the object nor the parameter that it refers to says a data type of CiA 301. The entry has the type that CiA 301 defines for it; any other is taken as a DOMAIN, a block of unknown length. Types of 24, 40, 48 and 56 bits have no element of their own, so that `dataType` of the object has to say them."
+        "Neither the object nor the parameter that it refers to states a data type of CiA 301. The entry has the type that CiA 301 defines for it; any other is taken as a DOMAIN, a block of unknown length. Types of 24, 40, 48 and 56 bits have no element of their own, so that `dataType` of the object has to name them."
         [Example::xdd(
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" accessType=\"rw\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
         )]
     XDD_NO_ACCESS Error "XDD204" "an entry without access":
-        "Neither the object nor a parameter says who may read and write the entry. It is taken as read-only until somebody says otherwise."
+        "Neither the object nor a parameter states how the entry may be read and written. It is taken as read-only until an access type is written."
         [Example::xdd(
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\"/>\n</CANopenObjectList>"
@@ -351,13 +351,13 @@ codes! {
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"ro\" PDOmapping=\"TPDO\"/>\n</CANopenObjectList>"
         )]
     XDD_DISABLED Warning "XDD208" "objects that are switched off":
-        "CANopenEditor can switch objects off (`CO_disabled`): neither its EDS nor its code has them, so they are no objects of the device. `--disabled` takes them all the same."
+        "CANopenEditor can switch objects off (`CO_disabled`): neither its EDS nor its code has them, so they are not objects of the device. `--disabled` reads them anyway."
         [Example::xdd(
             "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/><property name=\"CO_disabled\" value=\"true\"/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>",
             "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>",
         )]
     XDD_VALUES Warning "XDD209" "values of a node in an XDD":
-        "An XDD describes a type of device: `actualValue` is the value of one node, and belongs into an XDC. In an XDD it is left out of everything that is made from the file."
+        "An XDD describes a type of device: `actualValue` is the value of one node, and belongs in an XDC. In an XDD it is left out of everything that is made from the file."
         [Example::xdd(
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" defaultValue=\"0\" actualValue=\"5\"/>\n</CANopenObjectList>",
             "<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" defaultValue=\"0\"/>\n</CANopenObjectList>"

@@ -7,12 +7,12 @@ use crate::source::Span;
 pub struct Edit {
     /// What is replaced; empty for text that is put in between.
     pub span: Span,
-    /// What stands there afterwards.
+    /// What is written there afterwards.
     pub text: String,
 }
 
-/// Whether a text can take the place of any other in a specification: it needs no quotes, wherever it stands, and would need
-/// none inside of some.
+/// Whether a text can take the place of any other in a specification: it needs no quotes, wherever it is written, and
+/// would need none inside of some.
 pub(super) fn stands_without_quotes(text: &str) -> bool {
     let is_harmless =
         |c: char| c.is_alphanumeric() || matches!(c, ' ' | '.' | '-' | '_' | '(' | ')' | '/' | '°');

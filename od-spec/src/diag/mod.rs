@@ -199,13 +199,14 @@ impl Diagnostic {
         self.help(format!("did you mean `{word}`?")).meant(word)
     }
 
-    /// Tells what to write at the primary place, as far as anybody can tell what was meant.
+    /// Shows what to write at the primary place, as far as what was meant is clear.
     #[must_use]
     pub(crate) fn write(self, text: &str) -> Self {
         self.help(format!("write `{}`", shorten(text))).meant(text)
     }
 
-    /// What may have been meant at the primary place. What needs quotes is no change: the place may be inside of some, or not.
+    /// What may have been meant at the primary place. What needs quotes is not a change: the place may be inside of
+    /// some, or not.
     #[must_use]
     pub(crate) fn meant(mut self, text: &str) -> Self {
         if let Some(first) = self.labels.first().filter(|_| stands_without_quotes(text)) {
@@ -236,7 +237,7 @@ impl Diagnostic {
     }
 }
 
-/// Two messages are the same where the user reads the same: a mistake in what stands for many things is one.
+/// Two messages are the same where the user reads the same: a mistake in what represents many things is one.
 impl PartialEq for Diagnostic {
     fn eq(&self, other: &Self) -> bool {
         let Self {
@@ -275,7 +276,7 @@ pub struct Diagnostics {
     about: Option<About>,
     /// Errors that were added or said again.
     errors: usize,
-    /// What was said of a place that stands for many things.
+    /// What was said of a place that represents many things.
     said: BTreeSet<(&'static Code, Span)>,
     /// What is left for suggestions.
     pub(crate) suggestions: Suggestions,
@@ -293,7 +294,8 @@ impl Diagnostics {
         }
     }
 
-    /// Adds a message, unless it was said just now: what stands for many things, such as a run of objects, is wrong for each of them.
+    /// Adds a message, unless it was said just now: what represents many things, such as a run of objects, is wrong for
+    /// each of them.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         /// So many mistakes of one thing are remembered.
         const REMEMBERED: usize = 4;
@@ -304,8 +306,8 @@ impl Diagnostics {
         }
     }
 
-    /// Whether a place is told for the first time that it breaks a rule: a name in a run of objects is looked up for each of
-    /// them, and wrong once.
+    /// Whether a place is reported for the first time to break a rule: a name in a run of objects is looked up for each
+    /// of them, and wrong once.
     pub(crate) fn is_new(&mut self, code: &'static Code, span: Span) -> bool {
         let is_new = self.said.insert((code, span));
         self.errors += usize::from(!is_new && code.severity == Severity::Error);
@@ -317,8 +319,8 @@ impl Diagnostics {
         self.said.contains(&(code, span))
     }
 
-    /// Makes an error of the warning of a rule that has this place among its own; `false` where there is none. So somebody who
-    /// cannot go on with what the rule warns of need not say it again.
+    /// Makes an error of the warning of a rule that has this place among its own; `false` where there is none. So a
+    /// user who cannot go on with what the rule warns of need not say it again.
     pub fn harden(&mut self, code: &'static Code, span: Span) -> bool {
         let has_place = |said: &&mut Diagnostic| said.labels.iter().any(|label| label.span == span);
         let said = self.list.iter_mut().filter(|said| said.code == code).find(has_place);
@@ -354,7 +356,7 @@ impl Diagnostics {
         (of(Severity::Error), of(Severity::Warning))
     }
 
-    /// Those after which something has to be done. Who builds with a file has no use for the notes about it.
+    /// Those after which something has to be done. A build with a file does not need the notes about it.
     #[must_use]
     pub fn without_notes(mut self) -> Self {
         self.list.retain(|diagnostic| diagnostic.severity() != Severity::Note);

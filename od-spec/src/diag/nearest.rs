@@ -1,7 +1,7 @@
 //! "Did you mean": the candidate that is the fewest slips of the keyboard away.
 
 /// What the search for suggestions may cost in one compilation, in letters compared: a few dozen words in a dictionary of the
-/// largest size, and a fraction of a second. Who has more mistakes than that corrects the first ones first.
+/// largest size, and a fraction of a second. With more mistakes than that, the first ones are corrected first.
 const WORK: u64 = 50_000_000;
 /// Longest part of a word that is looked at.
 const LONGEST: usize = 80;
@@ -45,7 +45,7 @@ impl Suggestions {
                 return None;
             }
             letters.clear();
-            // One letter more than fits tells that it is too long.
+            // One letter more than fits shows that it is too long.
             letters.extend(candidate.chars().flat_map(char::to_lowercase).take(word.len() + allowed + 1));
             let mut cost = 1 + letters.len();
             if letters.len().abs_diff(word.len()) <= allowed {
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn many_mistakes_beside_many_names_have_an_end() {
+    fn many_mistakes_with_many_names_have_an_end() {
         let known: Vec<String> = (0..20_000).map(|at| format!("temperature of channel {at}")).collect();
         let mut suggestions = Suggestions::default();
         let names = || known.iter().map(String::as_str);

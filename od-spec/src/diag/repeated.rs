@@ -4,7 +4,7 @@ use super::{Diagnostic, Diagnostics, Edit, worded};
 use crate::source::Span;
 
 /// A finding that may hold for many places of a file. It is said once, at the first of them, with what puts all of them
-/// right: a list of hundreds of equal messages is read by nobody.
+/// right: a list of hundreds of equal messages is not read.
 pub(crate) struct Repeated {
     first: Option<(Span, Diagnostic)>,
     places: usize,

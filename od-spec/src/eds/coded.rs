@@ -22,7 +22,7 @@ pub(crate) fn data_type(text: &str) -> Option<DataType> {
     }
 }
 
-/// The number of an object type, of which the name may stand there.
+/// The number of an object type, of which the name may be written there.
 pub(crate) fn object_code(text: &str) -> Option<i128> {
     lenient_integer(text).or_else(|| words::object_code(alone(text)).map(i128::from))
 }

@@ -1,4 +1,4 @@
-//! What reading an EDS or DCF can say about its objects and values. The code of a rule over the text alone stands with the
+//! What reading an EDS or DCF can say about its objects and values. The code of a rule over the text alone is with the
 //! rule.
 
 pub use super::check::{LINKS_OF_NOTHING, NO_INDEX, SETTINGS_IN_EDS, UNKNOWN_MODULE};
@@ -25,7 +25,7 @@ macro_rules! codes {
 }
 
 codes! {
-    OBJECT_LEFT_OUT Warning Note "EDS401" "CiA 306 4.6.3.2" "an object that is no entry of the dictionary":
+    OBJECT_LEFT_OUT Warning Note "EDS401" "CiA 306 4.6.3.2" "an object that is not an entry of the dictionary":
         "Data types described as objects (DEFTYPE, DEFSTRUCT, indices below 1000h) and reserved object types are not among the objects that can be read and written. They are left out of the dictionary."
     BAD_OBJECT_TYPE Error Error "EDS402" "CiA 306 4.6.3.2" "an object type that does not fit":
         "`ObjectType` is a number: 0x2 (DOMAIN), 0x7 (VAR), 0x8 (ARRAY) or 0x9 (RECORD). A sub-index is a VAR or a DOMAIN, and only ARRAY and RECORD have sub-indices. A name such as `RECORD` is read as its number, which `odgen fix` writes. Where the sections describe something else than the key says, the sections count."
@@ -34,11 +34,11 @@ codes! {
     UNKNOWN_DATA_TYPE Error Error "EDS404" "CiA 301 7.4.1" "an unknown data type":
         "`DataType` is the index of one of the data types of CiA 301, such as 0x0007 for UNSIGNED32. A name that leaves no doubt (`UNSIGNED32`, `U32`) is read as its index, which `odgen fix` writes; `INT` and `UINT` have 16 bits in a PLC and 32 in C. Otherwise the entry has the type that CiA 301 defines for it, or is taken as a DOMAIN, a block of unknown length."
     MISSING_ACCESS Error Error "EDS405" "CiA 306 4.6.3.2" "an entry without an access type":
-        "Every entry needs `AccessType`; only for a DOMAIN the standard says what is meant without it: rw. Nothing tells whether the entry may be written, so it is taken as read-only until somebody says otherwise."
+        "Every entry needs `AccessType`; only for a DOMAIN the standard says what is meant without it: rw. Nothing states whether the entry may be written, so it is taken as read-only until an access type is written."
     UNKNOWN_ACCESS Error Error "EDS406" "CiA 306 4.6.3.2" "an unknown access type":
         "The access types are `ro`, `wo`, `rw`, `rwr`, `rww` and `const`. Other words that leave no doubt (`R/W`, `readOnly`, `W`) are read as what they say, and `odgen fix` writes the access type; everything else is taken as read-only."
     ACCESS_SPELLING Warning Note "EDS407" "CiA 306 4.6.3.2" "an access type in other letters":
-        "The access types are written `ro`, `wo`, `rw`, `rwr`, `rww` and `const`, in small letters. Some readers compare letter by letter, and take `RW` for nothing they know."
+        "The access types are written `ro`, `wo`, `rw`, `rwr`, `rww` and `const`, in lower case. Some readers compare letter by letter, and do not know `RW`."
     MISSING_NAME Error Warning "EDS408" "CiA 306 4.6.3.2" "an object or entry without a name":
         "`ParameterName` is needed everywhere: PLC tools show it, and many make variables of it. The index takes its place."
     NO_PARENT Error Error "EDS409" "CiA 306 4.6.3.2" "a sub-index without its object":
@@ -50,7 +50,7 @@ codes! {
     BAD_FLAG Error Error "EDS412" "CiA 306 4.6.3.2" "a key that is neither 0 nor 1":
         "`PDOMapping` is 0 or 1, `ObjFlags` a number whose bits 0 and 1 have a meaning. `yes` and `no` are read as 1 and 0, which `odgen fix` writes. What cannot be read counts as 0: not mappable, no flags."
     BAD_COUNT Error Error "EDS413" "CiA 306 4.6.3.4.2" "a compact array of an impossible size":
-        "`CompactSubObj` is the number of elements, 1 to 254. A larger number is taken as 254; what is no number leaves the array without elements."
+        "`CompactSubObj` is the number of elements, 1 to 254. A larger number is taken as 254; anything but a number leaves the array without elements."
     COMPACT_ELEMENT Error Error "EDS414" "CiA 306 4.6.3.4.2" "an element that a compact array does not have":
         "The keys of `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]` are sub-indices in decimal, from 1 to the number in `CompactSubObj`; and only an object with `CompactSubObj` has such lists. The line is left out."
     MODULES Note Note "EDS415" "CiA 306 6" "a device that is built from modules":
@@ -60,23 +60,23 @@ codes! {
     OCTAL Warning Warning "EDS502" "CiA 306 4.3" "a number that is octal":
         "CiA 306 reads a number with a leading zero as octal: `010` is 8. Some tools do, others read it as decimal, others refuse it. It is read as the standard says; write it without the zero, or with `0x`."
     BIT_PATTERN Warning Note "EDS503" "CiA 306 4.3" "a signed value as a bit pattern":
-        "The entry's type is signed, and the value is written as the bits that stand for it: `0xFF` for -1 in an INTEGER8. The standard does not say that this is right; some readers refuse it as too large, others take it as 255. It is read as the negative number. Write signed values in decimal."
+        "The entry's type is signed, and the value is written as the bits that represent it: `0xFF` for -1 in an INTEGER8. The standard does not say that this is right; some readers refuse it as too large, others take it as 255. It is read as the negative number. Write signed values in decimal."
     FORMULA_SPELLING Warning Warning "EDS504" "CiA 306 4.3" "a formula in another spelling":
-        "A formula begins with `$NODEID`, in capitals, and one added number may follow without blanks: `$NODEID+0x180`. In another spelling some readers lose the node-ID without a word, and every node gets one COB-ID."
+        "A formula begins with `$NODEID`, in upper case, and one added number may follow without spaces: `$NODEID+0x180`. In another spelling some readers lose the node-ID silently, and every node gets one COB-ID."
     BAD_FORMULA Error Error "EDS505" "CiA 306 4.3" "a formula that cannot be read":
         "A formula is `$NODEID` and at most one added number, in an entry whose type is an integer. The value is left out."
     BOOLEAN_WORD Warning Warning "EDS506" "CiA 306 4.3" "a word instead of 0 or 1":
         "A BOOLEAN is 0 or 1. Few readers understand `true` and `false`."
     NUMBER_NOTATION Warning Warning "EDS507" "CiA 306 4.3" "a number with something around it":
-        "Numbers stand alone: no sign before hexadecimal digits, no `+`, no suffix such as `UL`, no `.0`, no quotation marks. It is read without them; other readers refuse it or stop at the first strange character."
-    REMARK_IN_VALUE Error Warning "EDS508" "CiA 306 4.2" "a remark behind a value":
-        "A comment is a line of its own that begins with `;`. Behind a value it belongs to the value: most readers then find no number, or an unknown access type. It is read without the remark; put that on a line above the section."
+        "Numbers are written alone: no sign before hexadecimal digits, no `+`, no suffix such as `UL`, no `.0`, no quotation marks. It is read without them; other readers refuse it or stop at the first strange character."
+    REMARK_IN_VALUE Error Warning "EDS508" "CiA 306 4.2" "a remark after a value":
+        "A comment is a line of its own that begins with `;`. After a value it belongs to the value: most readers then find no number, or an unknown access type. It is read without the remark; put that on a line above the section."
     REAL_AS_BITS Warning Warning "EDS509" "CiA 306 4.3" "a REAL as a bit pattern":
         "CiA 306 does not say how a REAL is written: lely reads the bits of IEEE 754 as an integer, most others a decimal number. A hexadecimal number is read as bits."
     BYTES_NOTATION Warning Warning "EDS510" "CiA 306 4.3" "bytes in another notation":
         "An OCTET_STRING is written as pairs of hexadecimal digits without anything between or in front of them: `01A1053C`."
     TEXT_NOT_ASCII Error Warning "EDS511" "CiA 301 7.1.6.3" "a VISIBLE_STRING with other characters":
-        "A VISIBLE_STRING holds the printable characters of ASCII. The value is left out, as nobody knows which bytes the device has."
+        "A VISIBLE_STRING holds the printable characters of ASCII. The value is left out, because it is unknown which bytes the device has."
     NO_PLACE Note Note "EDS512" "CiA 306 4.6.3.2" "a value that has no place in the dictionary":
         "Values and limits of DOMAIN, time and text entries and limits that depend on the node-ID are not kept: the dictionary has no place for them. Parameter values, application names (`Denotation`), reference designations (`ParamRefd`) and the files of DOMAINs belong to a node, and have a place in a DCF only. What has none is left out of what is made from the file."
     LIMIT_ON_TYPE Warning Warning "EDS513" "CiA 306 4.6.3.2" "a limit where none can be":

@@ -26,7 +26,7 @@ pub(crate) fn date(text: &str) -> Option<Date> {
     match (one, two) {
         (13.., _) => of(year, two, one),
         (_, 13..) => of(year, one, two),
-        // With dashes it is the order of the standard; with anything else nobody knows.
+        // With dashes it is the order of the standard; with anything else it is unknown.
         _ if separator == '-' || one == two => of(year, one, two),
         _ => None,
     }

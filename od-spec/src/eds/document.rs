@@ -8,8 +8,8 @@ use crate::source::{FileId, Span};
 
 /// An EDS or DCF as a text of sections, keys and comments (CiA 306 4.2).
 ///
-/// Nothing is merged, sorted or dropped: lines stand in the order of the text, and a section or key that stands twice is
-/// there twice. Printing a document gives its text back, character by character, with each line's own break.
+/// Nothing is merged, sorted or dropped: lines are in the order of the text, and a section or key that is written twice
+/// is there twice. Printing a document gives its text back, character by character, with each line's own break.
 ///
 /// ```
 /// use od_spec::eds::{Document, Section};
@@ -73,14 +73,14 @@ impl<'t> Document<'t> {
         self.origins.get(usize::try_from(line.start()).ok()?).copied()
     }
 
-    /// Where the name in a header stands.
+    /// Where the name in a header is.
     pub(crate) fn name_place(&self, header: &Line<'_>, file: FileId) -> Span {
         let part =
             || header.name_part().map_or(Span { file, start: 0, end: 0 }, |name| header.part(file, name));
         self.origin(header).unwrap_or_else(part)
     }
 
-    /// Where the key and the value of a line stand.
+    /// Where the key and the value of a line are.
     pub(crate) fn key_places(&self, line: &Line<'_>, file: FileId) -> Option<(Span, Span)> {
         match self.origin(line) {
             Some(origin) => Some((origin, origin)),
@@ -88,7 +88,7 @@ impl<'t> Document<'t> {
         }
     }
 
-    /// Adds a section behind the others. A section that a program wrote is set off by one blank line.
+    /// Adds a section after the others. A section that a program wrote is set off by one blank line.
     pub fn push(&mut self, section: Section) {
         if !self.lines.is_empty() {
             self.lines.push(Line::new_blank());
@@ -102,7 +102,7 @@ impl<'t> Document<'t> {
         &self.lines
     }
 
-    /// Where a line stands, without its break.
+    /// Where a line is, without its break.
     pub fn place(&self, line: &Line<'_>) -> Option<Span> {
         let file = self.file?;
         if self.origins.is_empty() {
@@ -186,17 +186,17 @@ impl<'d, 't> SectionRef<'d, 't> {
         &self.document.lines[self.header]
     }
 
-    /// The lines behind the header.
+    /// The lines after the header.
     pub fn body(&self) -> &'d [Line<'t>] {
         &self.document.lines[self.header + 1..self.end]
     }
 
-    /// The lines with a key, in order, also those whose key stands twice.
+    /// The lines with a key, in order, also those whose key is written twice.
     pub fn keys(&self) -> impl Iterator<Item = &'d Line<'t>> + use<'d, 't> {
         self.body().iter().filter(|line| line.kind() == LineKind::KeyValue)
     }
 
-    /// The comments directly above the header, as they are behind their `;`, and what follows the name on its line.
+    /// The comments directly above the header, as they are after their `;`, and what follows the name on its line.
     pub(crate) fn comments_at_header(&self) -> impl Iterator<Item = &'d str> + use<'d, 't> {
         let before = &self.document.lines[..self.header];
         let above = before.iter().rev().take_while(|line| line.kind() == LineKind::Comment).count();
@@ -208,7 +208,8 @@ impl<'d, 't> SectionRef<'d, 't> {
         self.header().after_name().map(|(_, text)| text).filter(|text| !text.is_empty())
     }
 
-    /// The comments above the header, behind the last key of the section before; without their `;` and the blank behind it.
+    /// The comments above the header, after the last key of the section before; without their `;` and the space after
+    /// it.
     pub fn comments(&self) -> impl Iterator<Item = &'d str> + use<'d, 't> {
         let before = &self.document.lines[..self.header];
         let is_trivia = |line: &&Line<'_>| matches!(line.kind(), LineKind::Blank | LineKind::Comment);
@@ -246,7 +247,7 @@ impl Section {
         self.lines.first().and_then(Line::name).unwrap_or_default()
     }
 
-    /// Adds a key and its value behind the others. Neither may hold a line break, and the key no `=`.
+    /// Adds a key and its value after the others. Neither may hold a line break, and the key no `=`.
     pub fn push(&mut self, key: &str, value: &str) {
         self.lines.push(Line::new_key_value(key, value));
     }
@@ -281,8 +282,8 @@ mod tests {
         assert_eq!(names, ["1000", "1001", "1018sub1"]);
     }
 
-    /// A foreign file with everything that a reader will meet: every break, duplicates, blanks, what nobody can read, and
-    /// a last line without a break.
+    /// A foreign file with everything that a reader will meet: every break, duplicates, spaces, what cannot be read,
+    /// and a last line without a break.
     #[test]
     fn every_character_of_a_foreign_text_is_in_a_line() {
         let text = "\u{FEFF}; licence\nStray=1\n\t\n  ; above\r [FileInfo] trailing\r\n\tFileName = a b.eds \r\

@@ -67,7 +67,7 @@ pub(in crate::eds) fn above(view: &View<'_>, line: &Line<'_>, text: &str) -> Edi
     Edit { span: Span { file: view.file, start, end: start }, text: format!("{text}{line_break}") }
 }
 
-/// A number in the notation in which another one stands.
+/// A number in the notation in which another one is written.
 pub(in crate::eds) fn number_like(old: &str, number: impl Into<i128>) -> String {
     let number = number.into();
     if old.starts_with("0x") { format!("{number:#X}").replacen("0X", "0x", 1) } else { number.to_string() }
@@ -86,7 +86,7 @@ pub(in crate::eds) fn last_line<'d>(section: &SectionRef<'d, 'd>) -> &'d Line<'d
     section.body().iter().rev().find(says).unwrap_or_else(|| section.header())
 }
 
-/// Adds a section at its place in the classical order: behind the last section that comes before it.
+/// Adds a section at its place in the classical order: after the last section that comes before it.
 pub(in crate::eds) fn new_section<'l>(
     view: &View<'_>,
     topic: Topic,

@@ -27,9 +27,9 @@ const SECTIONS: [(Topic, &str); 4] = [
     (Topic::Commissioning, "[DeviceComissioning]\nNodeID=1\nBaudrate=125\n"),
 ];
 
-/// A text with the sections that every EDS or DCF has behind it, where it has none of its own: the objects that it describes
-/// are listed. A comment `; without [Comments]` leaves one out; `; ...` stands for the other keys of `[FileInfo]` or
-/// `[DeviceInfo]`.
+/// A text with the sections that every EDS or DCF has after it, where it has none of its own: the objects that it
+/// describes are listed. A comment `; without [Comments]` leaves one out; `; ...` represents the other keys of
+/// `[FileInfo]` or `[DeviceInfo]`.
 pub(crate) fn whole(language: Language, text: &str) -> String {
     let text = &with_other_keys(language, text);
     let mut sources = SourceMap::new();

@@ -20,11 +20,11 @@ pub struct Line<'t> {
 pub(super) enum Content {
     Blank,
     Comment,
-    /// Where the name ends, which begins behind the first bracket if there is one.
+    /// Where the name ends, which begins after the first bracket if there is one.
     Header {
         end: u32,
     },
-    /// Where the equals sign stands.
+    /// Where the equals sign is.
     KeyValue {
         equals: u32,
     },
@@ -60,7 +60,7 @@ pub enum LineEnd {
 /// What a line is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineKind {
-    /// Nothing but blanks.
+    /// Only spaces.
     Blank,
     /// A comment: `;`, or what many take for one, `#`.
     Comment,
@@ -88,7 +88,7 @@ impl<'t> Line<'t> {
         Self::written(joined(["; ", text, ""]), Content::Comment)
     }
 
-    /// A comment that programs read which know its key: without a blank behind the sign.
+    /// A comment that programs read which know its key: without a space after the sign.
     pub(super) fn new_remark(key: &str, value: &str) -> Self {
         Self::written(format!(";{key}={value}"), Content::Comment)
     }
@@ -115,7 +115,7 @@ impl<'t> Line<'t> {
         self.start
     }
 
-    /// Where it stands in a file, without its break.
+    /// Where it is in a file, without its break.
     pub(super) fn place(&self, file: FileId) -> Span {
         Span { file, start: self.start, end: self.start.saturating_add(length(&self.text)) }
     }
@@ -135,7 +135,7 @@ impl<'t> Line<'t> {
         self.end
     }
 
-    /// How many lines of the text it stands for.
+    /// How many lines of the text it represents.
     pub(in crate::eds) fn number(&self) -> usize {
         match self.content {
             Content::Blank if !self.end.text().is_empty() => 1 + self.text.matches(self.end.text()).count(),
@@ -154,7 +154,7 @@ impl<'t> Line<'t> {
         }
     }
 
-    /// The name in a header, as it is spelled, without blanks around it.
+    /// The name in a header, as it is spelled, without spaces around it.
     pub fn name(&self) -> Option<&str> {
         self.text.get(self.name_part()?.range())
     }
@@ -164,12 +164,12 @@ impl<'t> Line<'t> {
         self.text.get(self.key_part()?.range())
     }
 
-    /// The text of a key's value, without blanks around it; what it stands for depends on the key.
+    /// The text of a key's value, without spaces around it; what it means depends on the key.
     pub fn value(&self) -> Option<&str> {
         self.text.get(self.value_part()?.range())
     }
 
-    /// The text of a comment, without its sign and the blank behind it.
+    /// The text of a comment, without its sign and the space after it.
     pub fn comment(&self) -> Option<&str> {
         if self.kind() != LineKind::Comment {
             return None;
@@ -178,8 +178,8 @@ impl<'t> Line<'t> {
         Some(text.strip_prefix(' ').unwrap_or(text).trim_end_matches(is_blank))
     }
 
-    /// Where the text after a section's name begins, which is no part of it, and what it says: a comment that has no line of
-    /// its own.
+    /// Where the text after a section's name begins, which is not part of it, and what it says: a comment that has no
+    /// line of its own.
     pub(super) fn after_name(&self) -> Option<(usize, &str)> {
         let Content::Header { .. } = self.content else { return None };
         let end = self.text.find(']')? + 1;
@@ -187,7 +187,7 @@ impl<'t> Line<'t> {
         (!text.is_empty()).then(|| (end, text.trim_start_matches([';', '#']).trim()))
     }
 
-    /// Where a part of the line stands in its file, in bytes of the line's text.
+    /// Where a part of the line is in its file, in bytes of the line's text.
     pub(super) const fn part(&self, file: FileId, part: Part) -> Span {
         Span { file, start: self.start + part.start, end: self.start + part.end }
     }
@@ -210,7 +210,7 @@ impl<'t> Line<'t> {
         Some(trimmed(&self.text, Part { start: 0, end: equals }))
     }
 
-    /// The value behind the equals sign.
+    /// The value after the equals sign.
     pub(super) fn value_part(&self) -> Option<Part> {
         let equals = self.equals()?;
         Some(trimmed(&self.text, Part { start: equals + 1, end: length(&self.text) }))
@@ -255,7 +255,7 @@ pub(super) const fn is_blank(c: char) -> bool {
     c <= ' ' || c == '\u{FEFF}' || c.is_whitespace()
 }
 
-/// What is left of `start..end` without the blanks around it.
+/// What is left of `start..end` without the spaces around it.
 fn trimmed(line: &str, Part { start, end }: Part) -> Part {
     let (start, end) = (start as usize, end as usize);
     let at = |position: usize| u32::try_from(position).unwrap_or(u32::MAX);

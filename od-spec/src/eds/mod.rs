@@ -1,8 +1,8 @@
 //! EDS and DCF texts (CiA 306).
 //!
 //! A [`Document`] is what a writer fills and what a reader gives: it knows sections, keys, comments and line breaks, and
-//! nothing of devices, objects or types. It stands with the other front ends and not with the model, so that a text can be
-//! read, mended, compared and written back before anybody has understood it.
+//! nothing of devices, objects or types. It is with the other front ends and not with the model, so that a text can be
+//! read, mended, compared and written back before it is understood.
 
 pub(crate) mod check;
 pub(crate) mod coded;

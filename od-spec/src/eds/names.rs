@@ -102,7 +102,7 @@ pub(crate) enum ModuleTopic {
     SubExtension(Index),
 }
 
-/// Reads a name, in whatever capitals and however many zeros it is written.
+/// Reads a name, in whatever case and with however many zeros it is written.
 pub(crate) fn topic(name: &str) -> Topic {
     const PLAIN: [(&str, Topic); 13] = [
         ("FileInfo", Topic::FileInfo),
@@ -174,7 +174,7 @@ fn module_word(topic: ModuleTopic) -> String {
     }
 }
 
-/// `1018`, `1018sub1`, `3004Name`, also with `0x`, further zeros and blanks.
+/// `1018`, `1018sub1`, `3004Name`, also with `0x`, further zeros and spaces.
 fn object(name: &str) -> Option<Topic> {
     let digits = strip(name, "0x").unwrap_or(name);
     // The first letters of `Denotation` look like digits.
@@ -227,7 +227,7 @@ fn module(name: &str) -> Option<Topic> {
     Some(Topic::Module(number, topic?))
 }
 
-/// What follows a prefix in any capitals.
+/// What follows a prefix in upper or lower case.
 fn strip<'t>(text: &'t str, prefix: &str) -> Option<&'t str> {
     let front = text.get(..prefix.len())?;
     front.eq_ignore_ascii_case(prefix).then(|| &text[prefix.len()..])

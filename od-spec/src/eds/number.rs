@@ -20,11 +20,11 @@ pub(crate) enum Deviation {
     PlusSign,
     /// `0x12ULL`, as in a C program; the part that is too much, in bytes of the text.
     Suffix(Range<usize>),
-    /// `5.0` where an integer stands.
+    /// `5.0` where an integer is expected.
     Fraction,
     /// `true` or `false` for 1 and 0.
     Word,
-    /// A remark behind the value, `0x3ED ; homing`; in bytes of the text, with the blanks in front of it.
+    /// A remark after the value, `0x3ED ; homing`; in bytes of the text, with the spaces in front of it.
     Remark(Range<usize>),
     /// Quotation marks around the value.
     Quoted,
@@ -54,7 +54,7 @@ pub(crate) fn integer(text: &str) -> Option<Number> {
     let end = digits.bytes().position(|byte| !char::from(byte).is_digit(radix)).unwrap_or(digits.len());
     let (digits, rest) = digits.split_at(end);
     let magnitude = match (digits, radix, rest) {
-        // `0.0` begins like an octal number, and is none.
+        // `0.0` begins like an octal number, but is not one.
         (_, 8 | 10, rest) if rest.starts_with(['.', '8', '9']) => whole_fraction(unsigned)?,
         ("", ..) => return None,
         _ => i128::from_str_radix(digits, radix).ok()?,
@@ -91,12 +91,12 @@ pub(crate) fn help(text: &str, otherwise: &str) -> String {
     }
 }
 
-/// An integer as it stands in the sections about the file and the device, whatever it is spelled like.
+/// An integer as it is in the sections about the file and the device, whatever it is spelled like.
 pub(crate) fn lenient_integer(text: &str) -> Option<i128> {
     integer(text).map(|number| number.value)
 }
 
-/// `0`, `5.0`, `0.000f`: a number with nothing behind its point.
+/// `0`, `5.0`, `0.000f`: a number with nothing after its point.
 fn whole_fraction(text: &str) -> Option<i128> {
     let text = text.strip_suffix(['f', 'F']).unwrap_or(text);
     let (whole, fraction) = text.split_once('.')?;
@@ -121,7 +121,7 @@ pub(crate) struct Formula {
     pub is_standard: bool,
 }
 
-/// Reads `$NODEID+0x180`, also the other way round, with blanks and in any capitals.
+/// Reads `$NODEID+0x180`, also the other way round, with spaces and in upper or lower case.
 pub(crate) fn formula(text: &str) -> Option<Formula> {
     let mut deviations = Vec::new();
     let bare = bare(text, &mut deviations);
@@ -146,7 +146,7 @@ fn offset(text: &str) -> Option<u64> {
     u64::try_from(number.value).ok().filter(|_| number.deviations.is_empty())
 }
 
-/// A value without the remark behind it and the quotation marks around it.
+/// A value without the remark after it and the quotation marks around it.
 pub(crate) fn bare<'t>(text: &'t str, deviations: &mut Vec<Deviation>) -> &'t str {
     let remark = text
         .char_indices()

@@ -27,7 +27,7 @@ pub enum Owner {
 /// A comment of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark<'d> {
-    /// What it stands at.
+    /// What it is at.
     pub owner: Owner,
     /// Its text, without the sign in front of it.
     pub text: &'d str,
@@ -68,7 +68,7 @@ impl Document<'_> {
         let mut remarks: Vec<Remark<'_>> = Vec::new();
         for line in self.preamble() {
             if let Some(text) = line.comment() {
-                // What stands above the first header is above a section.
+                // What is above the first header is above a section.
                 remarks.push(Remark { owner: Owner::File, text });
             }
         }
@@ -95,7 +95,7 @@ impl Document<'_> {
                 }
             }
         }
-        // Lines that only divide say nothing, and who made the file is nobody's remark.
+        // Lines that only divide say nothing, and who made the file is not a remark about anything.
         remarks.retain(|remark| {
             remark.text.trim() != GENERATED && remark.text.chars().any(char::is_alphanumeric)
         });
@@ -103,7 +103,7 @@ impl Document<'_> {
     }
 }
 
-/// Whether a comment is a part of the file that somebody took out: `;[6406]`, `;AccessType=rw`.
+/// Whether a comment is a part of the file that was taken out: `;[6406]`, `;AccessType=rw`.
 pub(crate) fn is_code(text: &str) -> bool {
     let text = text.trim();
     let is_word = |key: &str| key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
@@ -116,7 +116,7 @@ mod tests {
     use crate::source::SourceMap;
 
     #[test]
-    fn comments_without_a_meaning_stand_at_what_they_are_about() {
+    fn comments_without_a_meaning_are_at_what_they_are_about() {
         let text = "; made by hand\n[FileInfo]\nA=1\n;inside\n\n; apart\n\n; unit mm\n;----\n[2000]\nB=2\n;StorageLocation=RAM\nC=3\n\
             ;[2001]\n[2000sub1]\nD=4\n; at the end\n";
         let mut sources = SourceMap::new();

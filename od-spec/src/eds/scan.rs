@@ -3,7 +3,7 @@
 use super::line::{Content, Line, LineEnd, is_blank};
 use super::names::{Topic, topic};
 
-/// The lines of a text; their texts and breaks, one behind the other, are the text.
+/// The lines of a text; their texts and breaks, one after the other, are the text.
 pub(super) fn lines(text: &str) -> Vec<Line<'_>> {
     let bytes = text.as_bytes();
     // Sources are smaller than 4 GiB.
@@ -80,10 +80,10 @@ fn header(line: &str, start: usize) -> Option<Content> {
     Some(Content::Header { end: u32::try_from(end).unwrap_or(u32::MAX) })
 }
 
-/// The first byte that is not blank.
+/// The first byte that is not a space.
 fn position(line: &str) -> Option<usize> {
     match line.as_bytes().first()? {
-        // By far the most lines begin without a blank.
+        // By far the most lines begin without a space.
         byte if *byte > b' ' && *byte < 0x80 => Some(0),
         _ => line.find(|c| !is_blank(c)),
     }

@@ -11,7 +11,7 @@ use crate::model::Index;
 use crate::source::{FileId, Span, Spanned};
 use crate::wording::FileFormat;
 
-/// What is known about a file beside its text.
+/// What is known about a file in addition to its text.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FileFacts<'d> {
     /// The name on the disk, without directories; empty where the text is from no file.
@@ -67,7 +67,7 @@ pub(crate) struct Part<'d> {
 pub(crate) struct Entry<'d> {
     /// The key, as it is spelled.
     pub key: Spanned<&'d str>,
-    /// The text of the value, without blanks around it.
+    /// The text of the value, without spaces around it.
     pub value: Spanned<&'d str>,
     /// The whole line.
     pub line: &'d Line<'d>,
@@ -133,7 +133,7 @@ impl<'d> View<'d> {
         }
     }
 
-    /// The sections of a topic that is no object's.
+    /// The sections of a topic that is not an object's.
     pub(crate) fn section(&self, topic: Topic) -> Option<&Part<'d>> {
         self.sections.get(&topic)
     }
@@ -207,7 +207,7 @@ impl<'d> Part<'d> {
         Spanned::new(self.sections[0].name(), self.sections[0].document().name_place(header, self.file))
     }
 
-    /// Where the first header's name stands.
+    /// Where the first header's name is.
     pub(crate) fn place(&self) -> Span {
         self.name().span
     }
@@ -218,7 +218,7 @@ impl<'d> Part<'d> {
         values.sum::<usize>() + self.comments_at_header().map(str::len).sum::<usize>()
     }
 
-    /// All keys in order, also those that stand twice.
+    /// All keys in order, also those that are written twice.
     pub(crate) fn entries(&self) -> impl Iterator<Item = Entry<'d>> + use<'d> {
         let file = self.file;
         let sections = self.sections.clone();
@@ -226,7 +226,8 @@ impl<'d> Part<'d> {
         keys.filter_map(move |(section, line)| entry_in(section, line, file))
     }
 
-    /// A key in any capitals, the last of several, as most readers take it; where it is not there, one with blanks in it.
+    /// A key in upper or lower case, the last of several, as most readers take it; where it is not there, one with
+    /// spaces in it.
     pub(crate) fn key(&self, name: &str) -> Option<Entry<'d>> {
         let sections = self.sections.iter().rev();
         let keys = sections.flat_map(|section| section.body().iter().rev().map(move |line| (*section, line)));
@@ -248,7 +249,7 @@ impl<'d> Part<'d> {
     }
 }
 
-/// Whether a key is a name with blanks in it: `Product Name`.
+/// Whether a key is a name with spaces in it: `Product Name`.
 pub(crate) fn is_spaced(key: &str, name: &str) -> bool {
     key.len() > name.len()
         && key.contains(char::is_whitespace)

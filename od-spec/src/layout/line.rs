@@ -1,13 +1,13 @@
-//! One line of YAML as it is laid out: its tokens with the blanks that belong between them.
+//! One line of YAML as it is laid out: its tokens with the spaces that belong between them.
 
-/// What stands open at the end of a line, so that the next one continues it.
+/// What is open at the end of a line, so that the next one continues it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Open {
     /// How many braces and brackets are open.
     pub depth: usize,
     /// The quote of a text that is not at its end.
     pub quote: Option<Quote>,
-    /// A text without quotes stands at the end, which the next line may go on with.
+    /// A text without quotes is at the end; the next line may continue it.
     pub plain: bool,
 }
 
@@ -21,7 +21,7 @@ pub(super) enum Quote {
 /// A line without its indentation.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Line<'a> {
-    /// What stands there, with the blanks that belong there.
+    /// What is there, with the spaces that belong there.
     pub text: String,
     /// The comment at its end, and the signs in front of it.
     pub comment: Option<(usize, &'a str)>,
@@ -62,7 +62,7 @@ pub(super) fn line(source: &str, open: Open) -> Option<Line<'_>> {
         scan.token(sign)?;
     }
     let Scan { out, open, begins_block, has_key, .. } = scan;
-    // Blanks at the end of a quoted text that goes on may belong to it.
+    // Spaces at the end of a quoted text that goes on may belong to it.
     let text = if open.quote.is_some() { out } else { out.trim_end().to_owned() };
     Some(Line { text, comment, open, begins_block, has_key })
 }
@@ -97,7 +97,7 @@ impl<'a> Scan<'a> {
         &self.source[self.at..]
     }
 
-    /// Whether a colon here stands between a key and its value.
+    /// Whether a colon here is between a key and its value.
     fn is_colon(&self, at: usize) -> bool {
         let mut signs = self.source[at..].chars();
         let is_end = |sign: char| matches!(sign, ' ' | '\t');
@@ -135,7 +135,7 @@ impl<'a> Scan<'a> {
             && (self.out.is_empty() || self.out.ends_with('-'))
     }
 
-    /// In braces, a quoted key needs no blank behind its colon.
+    /// In braces, a quoted key needs no space after its colon.
     fn after_quoted_key(&self) -> bool {
         self.open.depth > 0
             && self.out.ends_with(['"', '\''])
@@ -160,7 +160,7 @@ impl<'a> Scan<'a> {
     }
 
     fn closing(&mut self, sign: char) {
-        // Readers of YAML 1.1 take a colon with a brace behind it for a text.
+        // Readers of YAML 1.1 take a colon with a brace after it for a text.
         if self.out.ends_with(':') {
             self.out.push(' ');
         }
@@ -176,7 +176,7 @@ impl<'a> Scan<'a> {
         if sign == ',' && self.out.ends_with(':') {
             self.out.push(' ');
         }
-        // Behind an alias, a colon would belong to the name.
+        // After an alias, a colon would belong to the name.
         let last = self.out.rsplit([' ', '{', '[']).next().unwrap_or_default();
         if sign == ':' && last.starts_with(['*', '&']) {
             self.out.push(' ');
@@ -197,7 +197,7 @@ impl<'a> Scan<'a> {
         self.quoted_rest();
     }
 
-    /// The rest of a quoted text, as far as it stands in this line.
+    /// The rest of a quoted text, as far as it is in this line.
     fn quoted_rest(&mut self) {
         let rest = self.rest();
         let mut signs = rest.char_indices().peekable();
@@ -220,7 +220,7 @@ impl<'a> Scan<'a> {
         self.in_plain = false;
     }
 
-    /// The header of a block of text: nothing but a comment comes behind it.
+    /// The header of a block of text: nothing but a comment follows it.
     fn block_header(&mut self) {
         let rest = self.rest();
         let end = rest.find([' ', '\t']).unwrap_or(rest.len());
@@ -238,7 +238,7 @@ impl<'a> Scan<'a> {
         self.word(&rest[..end]);
     }
 
-    /// A text without quotes: up to a colon, a comment or, in braces, their signs. Blanks in it are its own.
+    /// A text without quotes: up to a colon, a comment or, in braces, their signs. Spaces in it are its own.
     fn plain(&mut self) {
         let rest = self.rest();
         let mut end = rest.len();
@@ -251,7 +251,7 @@ impl<'a> Scan<'a> {
             }
         }
         let text = rest[..end].trim_end();
-        // A sign that stands for nothing else is a text.
+        // A sign that means nothing else is a text.
         let text =
             if text.is_empty() { &rest[..rest.chars().next().map_or(0, char::len_utf8)] } else { text };
         self.word(text);
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn blanks_stand_where_they_belong() {
+    fn spaces_are_where_they_belong() {
         for (source, text) in [
             ("a:    b", "a: b"),
             ("name:   {a:1 ,b:  [ x,y ]  }", "name: {a:1, b: [x, y]}"),
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn comments_are_told_apart() {
+    fn comments_are_distinguished() {
         let of = |source| line(source, Open::default()).unwrap().comment.map(|(_, comment)| comment);
         assert_eq!(of("a: b   # c "), Some("# c"));
         assert_eq!(of("a: b# c"), None);

@@ -1,4 +1,4 @@
-//! The layout of a specification: how deep lines stand, and which blanks are between their words. Comments stay, and so
+//! The layout of a specification: how deep lines are, and which spaces are between their words. Comments stay, and so
 //! do the order of keys, the quotes, and the choice between braces and lines.
 //!
 //! The text is laid out line by line, without knowing what it means: what a line continues is kept apart from what begins
@@ -11,11 +11,11 @@ use crate::source::{FileId, SourceFile, SourceMap, Span};
 use crate::yaml::{self, Node, NodeKind};
 use line::{Line, Open, line};
 
-/// Blanks that a line stands further in than the one that it belongs to.
+/// Spaces by which a line is further in than the one that it belongs to.
 const STEP: usize = 2;
 /// A mark that some editors put at the beginning of a file.
 const MARK: char = '\u{feff}';
-/// Least blanks in front of a comment behind something.
+/// The fewest spaces between something and a comment after it.
 const BEFORE_COMMENT: usize = 2;
 
 /// A specification, a part or a library as it is laid out.
@@ -76,20 +76,20 @@ fn is_same(one: &Node, other: &Node) -> bool {
     }
 }
 
-/// What stands at one depth.
+/// What is at one depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Map,
     List,
 }
 
-/// Lines that stand equally deep.
+/// Lines that are equally deep.
 #[derive(Debug, Clone, Copy)]
 struct Level {
     kind: Kind,
-    /// How deep they stood.
+    /// How deep they were.
     was: usize,
-    /// How deep they stand.
+    /// How deep they are.
     is: usize,
 }
 
@@ -100,9 +100,9 @@ enum Continued {
     No,
     /// Braces or a quoted text: every line, until they are closed.
     Open(Open),
-    /// A text without quotes: lines that stand deeper than its key or dash.
+    /// A text without quotes: lines that are deeper than its key or dash.
     Plain,
-    /// A block of text: lines that stand deeper than its key or dash. `shift` is known from its first line.
+    /// A block of text: lines that are deeper than its key or dash. `shift` is known from its first line.
     Block { shift: Option<isize>, end: BlockEnd },
 }
 
@@ -114,7 +114,7 @@ struct Comment<'a> {
     is_behind_blank: bool,
 }
 
-/// What blank lines behind a block of text are.
+/// What blank lines after a block of text are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum BlockEnd {
     /// No part of it.
@@ -128,11 +128,11 @@ struct Layout<'a> {
     out: String,
     levels: Vec<Level>,
     continued: Continued,
-    /// How deep the line stood, and stands, that the next one may go on with.
+    /// How deep the line that the next one may continue was, and is.
     base: (usize, usize),
     /// The least depth of what goes on with it.
     inner: usize,
-    /// Where the text begins, behind a mark of its encoding.
+    /// Where the text begins, after a mark of its encoding.
     begin: usize,
     /// Blank lines since the last one.
     blank: usize,
@@ -152,7 +152,7 @@ fn laid_out(file: FileId, source: &SourceFile) -> Result<String, Box<Diagnostic>
         blank: 0,
         comments: Vec::new(),
     };
-    // A mark at the beginning is no part of the first line.
+    // A mark at the beginning is not part of the first line.
     let mut at = if source.text().starts_with(MARK) { MARK.len_utf8() } else { 0 };
     layout.out.push_str(&source.text()[..at]);
     layout.begin = layout.out.len();
@@ -172,7 +172,7 @@ impl<'a> Layout<'a> {
         let content = text.trim_start_matches(' ');
         let depth = text.len() - content.len();
         if content.trim().is_empty() {
-            // Blanks that stand deeper than a block of text are part of it.
+            // Spaces that are deeper than a block of text are part of it.
             match self.continued {
                 Continued::Block { shift: Some(shift), end } if self.is_in_block(depth, shift) => {
                     self.block_line(depth, content, Some(shift), end);
@@ -201,7 +201,7 @@ impl<'a> Layout<'a> {
             return Ok(());
         }
         if content.starts_with('\t') {
-            return Err(self.refused(at, "a tab stands where blanks make the structure"));
+            return Err(self.refused(at, "a tab is where spaces make the structure"));
         }
         self.begin(at, depth, content)
     }
@@ -211,14 +211,14 @@ impl<'a> Layout<'a> {
         let span = Span { file: self.file, start: place, end: place };
         Box::new(
             Diagnostic::new(codes::BAD_NOTATION, span, format!("this line cannot be laid out: {why}")).help(
-                "write it as specifications are written, without tags, directives and keys that are no texts",
+                "write it as specifications are written, without tags, directives and keys that are not texts",
             ),
         )
     }
 
     fn line(&self, at: usize, content: &'a str, open: Open) -> Result<Line<'a>, Box<Diagnostic>> {
         line(content, open)
-            .ok_or_else(|| self.refused(at, "it has a tag, a directive or a key that is no text"))
+            .ok_or_else(|| self.refused(at, "it has a tag, a directive or a key that is not a text"))
     }
 
     /// A line that begins something.
@@ -241,7 +241,7 @@ impl<'a> Layout<'a> {
         }
         let is = match self.levels.last() {
             Some(level) if level.was == depth && level.kind == kind => level.is,
-            // A list may stand as deep as the key that it belongs to.
+            // A list may be as deep as the key that it belongs to.
             Some(level) => {
                 let is = level.is + STEP;
                 self.levels.push(Level { kind, was: depth, is });
@@ -269,9 +269,9 @@ impl<'a> Layout<'a> {
             self.levels.push(Level { kind, was, is: now });
         }
         let line = self.line(at, content, Open::default())?;
-        // What goes on with a value stands deeper than its key; with an item, deeper than its dash.
+        // What continues a value is deeper than its key; with an item, deeper than its dash.
         self.inner = if line.has_key { was + 1 } else { inner };
-        // What goes on with a text that has no key stands where the text began.
+        // What continues a text that has no key is where the text began.
         let step = if line.has_key { 0 } else { STEP };
         self.base = (was.saturating_sub(step), now.saturating_sub(step));
         self.blank_line();
@@ -309,7 +309,7 @@ impl<'a> Layout<'a> {
         Ok(())
     }
 
-    /// A line of a block of text, all of which move by the same number of blanks.
+    /// A line of a block of text, all of which move by the same number of spaces.
     fn block_line(&mut self, depth: usize, content: &str, shift: Option<isize>, end: BlockEnd) {
         let shift = shift.unwrap_or_else(|| (self.base.1 + STEP).cast_signed() - depth.cast_signed());
         self.out.extend(std::iter::repeat_n('\n', self.blank));
@@ -321,7 +321,7 @@ impl<'a> Layout<'a> {
         self.continued = Continued::Block { shift: Some(shift), end };
     }
 
-    /// Whether a line of blanks is longer than the indentation of a block of text.
+    /// Whether a line of spaces is longer than the indentation of a block of text.
     fn is_in_block(&self, depth: usize, shift: isize) -> bool {
         depth.saturating_add_signed(shift) > self.base.1 + STEP
     }
@@ -341,7 +341,7 @@ impl<'a> Layout<'a> {
         self.comments.push(Comment { depth, text: comment, is_behind_blank });
     }
 
-    /// The comments that were remembered, as deep as what they stood with.
+    /// The comments that were remembered, as deep as what they were with.
     fn placed_comments(&mut self) -> Vec<(Comment<'a>, usize)> {
         let levels = &self.levels;
         let place = |comment: Comment<'a>| {
@@ -352,7 +352,7 @@ impl<'a> Layout<'a> {
         self.comments.drain(..).map(place).collect()
     }
 
-    /// Writes the comments in front of a line: as deep as it, but where they stood deeper.
+    /// Writes the comments in front of a line: as deep as it, but where they were deeper.
     fn write_comments(&mut self, comments: Vec<(Comment<'a>, usize)>, next: Option<(usize, usize)>) {
         let blank = std::mem::take(&mut self.blank);
         for (comment, placed) in comments {

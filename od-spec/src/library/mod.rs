@@ -38,7 +38,7 @@ pub struct Library {
 pub struct LibraryObject {
     /// The object as `{from: NAME}` gives it.
     pub object: Object,
-    /// Of an array, the elements behind those of the object that a larger `count:` would give it.
+    /// Of an array, the elements after those of the object that a larger `count:` would give it.
     pub further: Vec<Entry>,
 }
 

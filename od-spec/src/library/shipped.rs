@@ -31,7 +31,7 @@ type Kept = (Vec<String>, Arc<Spec>);
 
 thread_local! {
     /// The last of each library, in the order of [`LIBRARIES`]: reading takes longer than all else that a small specification asks
-    /// for. Of each thread, so that no compilation depends on what runs beside it.
+    /// for. Of each thread, so that no compilation depends on what runs at the same time.
     static KEPT: RefCell<[Option<Kept>; LIBRARIES.len()]> = const { RefCell::new([const { None }; LIBRARIES.len()]) };
 }
 
@@ -80,7 +80,7 @@ mod tests {
     use crate::files::NoFiles;
     use crate::source::SourceMap;
 
-    /// The model of a device with objects of a library, read behind other files.
+    /// The model of a device with objects of a library, read after other files.
     fn system(languages: &str, files_before: usize) -> String {
         let text = format!(
             "od-spec: 1\ntitle: t\nlanguages: [{languages}]\nuses: [cia301]\ndevices: {{d: {{name: d, bit-rates: [125]}}}}\nobjects:\n  0x1010: {{from: cia301}}\n  0x1017: {{from: cia301}}\n"
@@ -99,7 +99,7 @@ mod tests {
         let cases = [("en", 0), ("de, en", 0), ("en", 2), ("en, de", 2)];
         let read = cases.map(|(languages, before)| system(languages, before));
         assert!(read[0] != read[1], "the languages make no difference");
-        // Each behind itself, and behind another.
+        // Each after itself, and after another.
         for (at, (languages, before)) in [0, 0, 1, 1, 3, 3, 2, 2, 0].map(|at| (at, cases[at])) {
             assert!(system(languages, before) == read[at], "{languages}, {before}");
         }

@@ -9,7 +9,7 @@ use super::{Constraint, Dictionary, EntryId, Expr, Held, Outcome, Ratio, System,
 pub(crate) struct Stuck {
     /// What can be written, in this order.
     pub ordered: Vec<EntryId>,
-    /// What cannot be written behind it, in the order in which it was given.
+    /// What cannot be written after it, in the order in which it was given.
     pub left: Vec<EntryId>,
 }
 

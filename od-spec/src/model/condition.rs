@@ -286,7 +286,7 @@ impl Term {
         }
     }
 
-    /// Whether an entry stands in the term.
+    /// Whether an entry is in the term.
     pub fn names_entry(&self) -> bool {
         let mut operands = Vec::new();
         self.operands(&mut operands);

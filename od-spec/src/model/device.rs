@@ -32,9 +32,9 @@ pub struct Dictionary {
     pub objects: BTreeMap<Index, Object>,
     /// PDOs, RPDOs first, by number.
     pub pdos: Vec<Pdo>,
-    /// Of an EDS or DCF: what it says beside all this.
+    /// Of an EDS or DCF: what it says in addition to all this.
     pub further: Option<Arc<Further>>,
-    /// Where the facts about the device stand.
+    /// Where the facts about the device are written.
     pub facts: Facts,
     /// Where the device is defined.
     pub span: Span,
@@ -53,7 +53,7 @@ pub struct AnyError {
 }
 
 impl Dictionary {
-    /// Where a fact about the device stands; where nobody states it, the device's own place.
+    /// Where a fact about the device is written; where it is not stated, the device's own place.
     pub fn place(&self, fact: Fact) -> Span {
         self.facts.get(fact).map_or(self.span, |statement| statement.span)
     }
@@ -89,14 +89,14 @@ impl Dictionary {
         Some(dotted(object, &object.name, &object.entry(id.sub)?.name))
     }
 
-    /// The name of an entry that no other entry has: identifiers stand in for names where they are given.
+    /// The name of an entry that no other entry has: identifiers replace names where they are given.
     pub fn entry_label(&self, id: EntryId) -> Option<String> {
         let object = self.objects.get(&id.index)?;
         Some(dotted(object, object.label(), object.entry(id.sub)?.label()))
     }
 }
 
-/// The name of an entry: that of its object, with its own behind it where the object has several.
+/// The name of an entry: that of its object, with its own after it where the object has several.
 fn dotted(object: &Object, name: &str, entry: &str) -> String {
     match object.kind {
         ObjectKind::Var | ObjectKind::Domain => name.to_owned(),
@@ -130,7 +130,7 @@ pub struct DeviceInfo {
     pub group_messaging: bool,
     /// LSS slave.
     pub lss: bool,
-    /// Data types that may stand in an RPDO as placeholders.
+    /// Data types that may be in an RPDO as placeholders.
     pub dummies: Vec<DataType>,
     /// Where a PLC may create network variables; segments that do not overlap.
     pub dynamic_channels: Vec<DynamicChannel>,

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::{Axis, Date, Devices, Direction, EntryId, Flow, Index, Switch, Text, Timing};
 
-/// The printed manual that a specification stands for.
+/// The printed manual that a specification represents.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Document {
@@ -62,13 +62,13 @@ pub struct Section {
     pub number: String,
     /// Heading.
     pub title: Text,
-    /// Tables that stand in it.
+    /// Tables in it.
     pub tables: Vec<Table>,
-    /// What stands in it, in order.
+    /// What it contains, in order.
     pub content: Vec<Content>,
 }
 
-/// What stands in a section.
+/// What a section contains.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Content {
     /// The table at this position of [`Section::tables`].
@@ -141,7 +141,7 @@ pub struct Figure {
 }
 
 impl Table {
-    /// The figure, where table and picture stand under one caption, which is the figure's.
+    /// The figure, where table and picture are under one caption, which is the figure's.
     #[must_use]
     pub fn as_figure(&self) -> Option<&Figure> {
         self.figure.as_ref().filter(|figure| self.number.is_none() && figure.title == self.title)

@@ -332,7 +332,7 @@ constraints:
     }
 
     #[test]
-    fn formulas_are_resolved_and_what_does_not_fit_is_told() {
+    fn formulas_are_resolved_and_what_does_not_fit_is_reported() {
         let system = lamp();
         let write = |id, value| download(&system, &system.devices[0], &BTreeMap::from([(id, value)]), 5);
         let writes = write(id(0x1014, 0), Value::NodeId(0x80)).unwrap();

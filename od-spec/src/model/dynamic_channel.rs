@@ -2,8 +2,8 @@
 
 use super::{Access, DataType, Index};
 
-/// A segment of indices at which the tool of a PLC may create network variables (CiA 302 part 4); they are no objects of the
-/// device until then.
+/// A segment of indices at which the tool of a PLC may create network variables (CiA 302 part 4); they are not objects
+/// of the device until then.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DynamicChannel {

@@ -1,4 +1,4 @@
-//! Facts: what is said about an entry, an object or a device, where it stands, and who says it.
+//! Facts: what is said about an entry, an object or a device, where it is written, and who states it.
 //!
 //! A message points at a fact, a departure from a standard is one, a column of the documents shows one, a key of the
 //! specification states one.
@@ -97,7 +97,7 @@ facts! {
     GroupMessaging = "group-messaging",
     /// LSS slave.
     Lss = "lss",
-    /// Data types that may stand in an RPDO as placeholders.
+    /// Data types that may be in an RPDO as placeholders.
     Dummies = "dummies",
     /// Indices at which a PLC may create network variables.
     DynamicChannels = "dynamic-channels",
@@ -132,8 +132,8 @@ facts! {
 }
 
 impl Fact {
-    /// Whether an EDS states the fact in its keys, where another tool reads it. What stands in comments only, it does not
-    /// state.
+    /// Whether an EDS states the fact in its keys, where another tool reads it. It does not
+    /// state what is only in comments.
     pub const fn is_stated_by_eds(self) -> bool {
         match self {
             Self::Name
@@ -200,13 +200,13 @@ pub enum Author {
     Maker,
     /// A library of a standard; the maker has added nothing.
     Library,
-    /// Nobody: it follows from other facts.
+    /// No one: it follows from other facts.
     Derived,
-    /// Whoever configures a node: a setting laid over the maker's value.
+    /// The user who configures a node: a setting laid over the maker's value.
     Setting,
 }
 
-/// Where a fact stands, and who says it.
+/// Where a fact is written, and who states it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Statement {
     /// Where it is written; for a derived fact, where it follows from.
@@ -222,13 +222,13 @@ impl Statement {
         Self { span, author }
     }
 
-    /// A fact that follows from what stands at `span`.
+    /// A fact that follows from what is written at `span`.
     pub const fn derived(span: Span) -> Self {
         Self { span, author: Author::Derived }
     }
 }
 
-/// What is known about the facts of one thing. A fact that nobody states has no statement.
+/// What is known about the facts of one thing. A fact that is not stated has no statement.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Facts {
     /// Ascending by fact; a handful.
@@ -241,7 +241,7 @@ impl Facts {
         Self { stated: Vec::new() }
     }
 
-    /// Where a fact stands, and who says it.
+    /// Where a fact is written, and who states it.
     pub fn get(&self, fact: Fact) -> Option<Statement> {
         let at = self.stated.binary_search_by_key(&fact, |(stated, _)| *stated).ok()?;
         Some(self.stated[at].1)
@@ -255,12 +255,12 @@ impl Facts {
         }
     }
 
-    /// The facts that somebody says, in order.
+    /// The facts that are stated, in order.
     pub fn said_by(&self, author: Author) -> impl Iterator<Item = Fact> {
         self.stated.iter().filter(move |(_, statement)| statement.author == author).map(|(fact, _)| *fact)
     }
 
-    /// Whether somebody says the fact.
+    /// Whether the fact is stated.
     pub fn is_said_by(&self, fact: Fact, author: Author) -> bool {
         self.get(fact).is_some_and(|statement| statement.author == author)
     }

@@ -1,4 +1,5 @@
-//! What an EDS or DCF says beside the facts of the model: kept in its own words, and written into such files again.
+//! What an EDS or DCF says in addition to the facts of the model: kept in its own words, and written into such files
+//! again.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -36,7 +37,7 @@ impl Further {
         self.modules.values().any(|module| module.brings.contains(&index) || module.extends.contains(&index))
     }
 
-    /// The sections that stand behind the objects.
+    /// The sections that follow the objects.
     pub fn all_sections(&self) -> impl Iterator<Item = &FurtherSection> {
         self.sections.iter().chain(self.modules.values().flat_map(|module| &module.sections))
     }

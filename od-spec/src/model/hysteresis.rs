@@ -27,7 +27,7 @@ pub enum SwitchSide {
 /// Where a [`Switch`] goes off again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SwitchBack {
-    /// This far behind the threshold, seen from where it is on.
+    /// This far past the threshold, seen from where it is on.
     By(EntryId),
     /// At this value.
     At(EntryId),
@@ -70,7 +70,7 @@ impl Switch {
     }
 }
 
-/// What a raw value stands for as a difference of two values: where its unit counts from does not matter.
+/// What a raw value represents as a difference of two values: where its unit counts from does not matter.
 fn difference(unit: &Unit, raw: i128) -> Option<Ratio> {
     Ratio::whole(raw).checked_mul(unit.step()?)
 }

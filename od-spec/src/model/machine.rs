@@ -28,7 +28,7 @@ pub struct StateMachine {
 }
 
 impl StateMachine {
-    /// Where something of the machine stands; its name, for what a library says.
+    /// Where something of the machine is written; its name, for what a library says.
     pub(crate) const fn place(&self, written: Span) -> Span {
         if written.file.is_one_with(self.span.file) { written } else { self.span }
     }
@@ -68,7 +68,7 @@ pub struct Transition {
     pub span: Span,
 }
 
-/// How a device makes a transition that nobody commands.
+/// How a device makes a transition without a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ByDevice {
     /// Only a command causes it, or the start.

@@ -180,7 +180,7 @@ pub struct ErrorCode {
     pub option_code: Option<EntryId>,
     /// What resets it, where that is not what resets every error of a device; see [`ErrorCode::reset_on`].
     pub reset: Text,
-    /// The kinds of error that it is told as in 1001h, as far as somebody says it, ascending; see [`ErrorCode::register`].
+    /// The kinds of error as which 1001h reports it, as far as they are stated, ascending; see [`ErrorCode::register`].
     pub kinds: Vec<ErrorKind>,
     /// Devices that treat it as priority, reaction and option code say.
     pub treated_by: Devices,
@@ -199,7 +199,7 @@ impl ErrorCode {
         code >> 8 == 0
     }
 
-    /// The bits of 1001h that it sets: those that somebody says, or else that of its class; with any, the generic one.
+    /// The bits of 1001h that it sets: those that are stated, or else that of its class; with any, the generic one.
     pub fn register(&self) -> u8 {
         if Self::is_no_error(self.code) {
             return 0;
@@ -209,8 +209,8 @@ impl ErrorCode {
         kinds.chain([ErrorKind::Generic]).fold(0, |bits, kind| bits | 1 << kind.bit())
     }
 
-    /// What resets the error on a device: what it says itself, or else what the device says of every error. Empty where nobody
-    /// says it, and for the code that means that there is no error.
+    /// What resets the error on a device: what it says itself, or else what the device says of every error. Empty where
+    /// no one says it, and for the code that means that there is no error.
     pub fn reset_on<'a>(&'a self, device: &'a Dictionary) -> &'a Text {
         if self.reset.is_empty() && self.code != Self::NONE { &device.any_error.reset } else { &self.reset }
     }

@@ -34,7 +34,7 @@ pub enum TypeKind {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct EnumValues {
     ascending: Vec<EnumValue>,
-    /// Where the names stand in it, by name.
+    /// Where the names are in it, by name.
     by_name: Vec<usize>,
 }
 
@@ -91,7 +91,7 @@ pub struct EnumValue {
     pub supported: bool,
     /// Meaning.
     pub about: Text,
-    /// Where its name stands, which is no part of what it is.
+    /// Where its name is written, which is not part of what it is.
     pub place: Spanned<()>,
 }
 
@@ -125,7 +125,7 @@ pub struct BitField {
     pub values: Vec<EnumValue>,
     /// Meanings that apply only in one mode of operation.
     pub modes: Vec<ModeMeaning>,
-    /// Where its name stands, which is no part of what it is.
+    /// Where its name is written, which is not part of what it is.
     pub place: Spanned<()>,
 }
 
@@ -142,7 +142,7 @@ pub struct ModeMeaning {
 }
 
 impl BitField {
-    /// Whether the bits mean something that is told: under a name of their own, or in some mode.
+    /// Whether the bits have a stated meaning: under a name of their own, or in some mode.
     pub fn is_told(&self) -> bool {
         self.usage == BitUsage::Used && (!self.name.is_empty() || !self.modes.is_empty())
     }

@@ -16,9 +16,9 @@ use crate::source::{Span, Spanned};
 pub enum ObjectKind {
     /// One value at sub-index 0.
     Var,
-    /// Elements of one type behind a count.
+    /// Elements of one type after a count.
     Array,
-    /// Members of any types behind a count.
+    /// Members of any types after a count.
     Record,
     /// A block of variable length.
     Domain,
@@ -94,7 +94,7 @@ pub struct Object {
     pub links: Vec<Spanned<Index>>,
     /// What CANopenEditor keeps of it, if the file is from there.
     pub editor: Option<Box<EditorNotes>>,
-    /// Danger that comes from it as a whole; that of a VAR stands at its entry, too.
+    /// Danger that comes from it as a whole; that of a VAR is at its entry, too.
     pub warning: Text,
     /// Meaning.
     pub about: Text,
@@ -110,7 +110,7 @@ impl Object {
         self.name == text || self.identifier.as_deref() == Some(text)
     }
 
-    /// What tells the object from all others of its device: the identifier, or else the name.
+    /// What distinguishes the object from all others of its device: the identifier, or else the name.
     pub fn label(&self) -> &str {
         self.identifier.as_ref().unwrap_or(&self.name)
     }
@@ -134,7 +134,7 @@ impl Object {
         self.entries.binary_search_by_key(&sub, |entry| entry.sub).ok().map(|at| &self.entries[at])
     }
 
-    /// The entries behind sub-index 0; without FFh, which does not count.
+    /// The entries after sub-index 0; without FFh, which does not count.
     pub fn counted(&self) -> impl DoubleEndedIterator<Item = &Entry> + Clone {
         self.entries.iter().filter(|entry| entry.sub.0 > 0 && entry.sub != SubIndex::STRUCTURE)
     }
@@ -187,9 +187,9 @@ pub struct Entry {
     pub pdo: PdoMapping,
     /// Value after factory reset.
     pub default: Option<Value>,
-    /// Smallest allowed value (raw), beside the special values.
+    /// Smallest allowed value (raw), apart from the special values.
     pub low: Option<i128>,
-    /// Largest allowed value (raw), beside the special values.
+    /// Largest allowed value (raw), apart from the special values.
     pub high: Option<i128>,
     /// Smallest and largest allowed value of a REAL.
     pub real_limits: RealLimits,
@@ -215,7 +215,7 @@ pub struct Entry {
     pub bit_errors: Vec<BitErrors>,
     /// What the EDS shows of it.
     pub eds: EdsPolicy,
-    /// Where each fact stands, and who says it.
+    /// Where each fact is written, and who states it.
     pub facts: Facts,
     /// Danger for people, machine or data that comes from it.
     pub warning: Text,
@@ -231,7 +231,7 @@ impl Entry {
         self.name == text || self.identifier.as_deref() == Some(text)
     }
 
-    /// What tells the entry from all others of its object: the identifier, or else the name.
+    /// What distinguishes the entry from all others of its object: the identifier, or else the name.
     pub fn label(&self) -> &str {
         self.identifier.as_ref().unwrap_or(&self.name)
     }
@@ -277,7 +277,7 @@ impl Entry {
         (low, high)
     }
 
-    /// The declared limits, beside the special values. `None` where nothing limits that side.
+    /// The declared limits, apart from the special values. `None` where nothing limits that side.
     pub fn limits(&self) -> (Option<Value>, Option<Value>) {
         let of = |raw: Option<i128>, real: &Option<Real>| {
             raw.map(Value::Integer).or_else(|| real.clone().map(Value::Real))
@@ -309,7 +309,7 @@ impl Entry {
         fields.iter().filter(reports).map(|field| field.first).collect()
     }
 
-    /// Where a fact stands; where nobody states it, the entry's own place.
+    /// Where a fact is written; where it is not stated, the entry's own place.
     pub fn place(&self, fact: Fact) -> Span {
         self.facts.get(fact).map_or(self.span, |statement| statement.span)
     }
@@ -378,7 +378,7 @@ pub struct SpecialValue {
     pub name: String,
     /// More about it.
     pub about: Text,
-    /// Where its name stands, which is no part of what it is.
+    /// Where its name is written, which is not part of what it is.
     pub place: Spanned<()>,
 }
 

@@ -13,7 +13,7 @@ pub struct Pdo {
     pub direction: Direction,
     /// Number, 1 to 512; the communication object is `1400h` or `1800h` plus number minus one.
     pub number: u16,
-    /// COB-ID entry with its flag bits: 31 not valid, 30 no RTR (TPDO); `None` where nobody states it.
+    /// COB-ID entry with its flag bits: 31 not valid, 30 no RTR (TPDO); `None` where it is not stated.
     pub cob_id: Option<Value>,
     /// Whether the PDO exists after start-up; not without a COB-ID.
     pub valid: bool,

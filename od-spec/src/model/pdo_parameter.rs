@@ -1,4 +1,4 @@
-//! What the parameter objects of a PDO hold, and what it is called where nobody says otherwise.
+//! What the parameter objects of a PDO hold, and what it is called where nothing else is stated.
 
 use std::collections::BTreeMap;
 

@@ -15,7 +15,7 @@ pub struct Real {
 }
 
 impl Real {
-    /// Reads a decimal number for a type; `None` if it is none, or too large.
+    /// Reads a decimal number for a type; `None` if it is not one, or too large.
     pub fn read(text: &str, data_type: DataType) -> Option<Self> {
         let number: f64 = text.parse().ok()?;
         let kept = kept(number, data_type);
@@ -40,8 +40,8 @@ impl Real {
         self.order(data_type).cmp(&other.order(data_type))
     }
 
-    /// A whole number that stands for the one that the type keeps wherever numbers of the type are compared: its bits without
-    /// the sign, and negative where the number is.
+    /// A whole number that represents the one that the type keeps wherever numbers of the type are compared: its bits
+    /// without the sign, and negative where the number is.
     pub fn order(&self, data_type: DataType) -> i64 {
         let kept = kept(self.number, data_type);
         let magnitude = if data_type == DataType::Real32 {

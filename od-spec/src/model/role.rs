@@ -1,4 +1,4 @@
-//! What an object is, whoever wrote it: this follows from its index.
+//! What an object is, whatever file describes it: this follows from its index.
 
 use super::{Index, Object};
 

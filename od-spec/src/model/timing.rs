@@ -16,12 +16,13 @@ pub struct Timing {
 pub struct Signal {
     /// What it is.
     pub carrier: SignalCarrier,
-    /// Its levels: before the first step, then behind each step.
+    /// Its levels: before the first step, then after each step.
     pub levels: Vec<Level>,
 }
 
 impl Signal {
-    /// Whether the level changes at a step, counted from 1. Nobody knows it where any level may be before or behind the step.
+    /// Whether the level changes at a step, counted from 1. It is unknown where any level may be before or after the
+    /// step.
     pub fn changes_at(&self, step: usize) -> bool {
         let before = step.checked_sub(1).and_then(|before| self.levels.get(before));
         before
@@ -55,9 +56,9 @@ pub struct NamedBits {
 /// The level of a [`Signal`] between two steps.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Level {
-    /// Any: it does not matter, or nobody knows.
+    /// Any: it does not matter, or is unknown.
     Any,
-    /// Some value that has a letter, to tell it from others.
+    /// Some value that has a letter, to distinguish it from others.
     Letter(char),
     /// This value.
     Value(Value),

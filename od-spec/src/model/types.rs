@@ -25,7 +25,7 @@ impl Index {
 pub struct SubIndex(pub u8);
 
 impl SubIndex {
-    /// FFh, which any array or record may have: it tells the structure of the object and does not count.
+    /// FFh, which any array or record may have: it describes the structure of the object and does not count.
     pub const STRUCTURE: Self = Self(0xFF);
 }
 
@@ -290,7 +290,7 @@ impl DataType {
         self.bits().is_some()
     }
 
-    /// Whether the type may stand in an RPDO as a placeholder (0001h..0007h).
+    /// Whether the type may be in an RPDO as a placeholder (0001h..0007h).
     pub const fn is_dummy(self) -> bool {
         self.code() <= 0x07
     }
@@ -358,7 +358,7 @@ word_enum! {
         Ro = "ro",
         /// Write only.
         Wo = "wo",
-        /// Read and write; where it is mappable, the PDO mapping tells the direction.
+        /// Read and write; where it is mappable, the PDO mapping states the direction.
         Rw = "rw",
         /// Read and write, a process input: may be mapped into TPDOs.
         Rwr = "rwr",

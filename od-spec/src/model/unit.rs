@@ -12,7 +12,7 @@ pub struct Unit {
     pub symbol: String,
     /// One raw step in `symbol`: 1/10 for a raw value in tenths of a degree.
     pub scale: Ratio,
-    /// What the raw value 0 stands for, in `symbol`: -40 for a raw value that counts from -40 °C.
+    /// What the raw value 0 means, in `symbol`: -40 for a raw value that counts from -40 °C.
     pub offset: Ratio,
     /// One `symbol` in terms of another symbol: a millivolt is 1/1000 V.
     pub base: Option<Base>,
@@ -50,7 +50,7 @@ impl Unit {
         self.per_symbol(symbol)?.checked_mul(self.scale)
     }
 
-    /// What the raw value 0 stands for in the given symbol, if the unit knows it.
+    /// What the raw value 0 means in the given symbol, if the unit knows it.
     pub fn offset_in(&self, symbol: &str) -> Option<Ratio> {
         self.per_symbol(symbol)?.checked_mul(self.offset)
     }
@@ -64,7 +64,7 @@ impl Unit {
         }
     }
 
-    /// The quantity that a raw value stands for, in the basic symbol; `None` if the fraction does not fit 128 bits.
+    /// The quantity that a raw value represents, in the basic symbol; `None` if the fraction does not fit 128 bits.
     pub fn quantity(&self, raw: i128) -> Option<Ratio> {
         let above = Ratio::whole(raw).checked_mul(self.step()?)?;
         above.checked_add(self.offset_in(self.base_symbol())?)
@@ -81,7 +81,7 @@ impl Unit {
         value.to_decimal(value.decimal_places()?.max(1))
     }
 
-    /// Whether a raw value is the number of symbols that it stands for.
+    /// Whether a raw value is the number of symbols that it represents.
     pub fn is_plain(&self) -> bool {
         self.scale == Ratio::ONE && self.offset == Ratio::ZERO
     }

@@ -18,7 +18,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// The integer, with the formula resolved for a node; `None` for a value that is no integer.
+    /// The integer, with the formula resolved for a node; `None` for a value that is not an integer.
     pub fn integer_for(&self, node: u8) -> Option<i128> {
         match self {
             Value::Integer(value) => Some(*value),
@@ -48,9 +48,9 @@ impl Value {
         }
     }
 
-    /// The value that bytes on the bus stand for; `None` where the type has no value of these bytes: another number of them, a
-    /// BOOLEAN that is neither 0 nor 1, a REAL that is no number, a text that is none. What has no values of its own, a time or a
-    /// DOMAIN, has none either.
+    /// The value that bytes on the bus represent; `None` where the type has no value of these bytes: another number of
+    /// them, a BOOLEAN that is neither 0 nor 1, a REAL that is not a number, bytes that are not a text. What has no
+    /// values of its own, a time or a DOMAIN, has none either.
     pub fn from_bytes(data_type: DataType, bytes: &[u8]) -> Option<Self> {
         match data_type.family() {
             Family::Boolean | Family::Signed | Family::Unsigned => {
@@ -129,7 +129,7 @@ fn real_of(data_type: DataType, bytes: &[u8]) -> Option<Real> {
     Real::read(&text, data_type)
 }
 
-/// The raw value that an alias shows for a raw value of its target; `None` stands for an SDO abort.
+/// The raw value that an alias shows for a raw value of its target; `None` means an SDO abort.
 pub fn convert(
     target: i128,
     factor: Ratio,
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rescaling_alias_rounds_as_told() {
+    fn a_rescaling_alias_rounds_as_stated() {
         let milli = Ratio::new(1, 1000).unwrap();
         let to = |value, rounding| {
             convert(value, milli, rounding, Outside::Saturate, DataType::Integer16).unwrap()

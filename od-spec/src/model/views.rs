@@ -114,7 +114,7 @@ impl Dictionary {
             .filter_map(|(id, _, entry)| entry.alias.as_ref().map(|alias| View { id, entry, alias }))
     }
 
-    /// The places of an entry in the factory mappings of PDOs, RPDOs first, by number; an entry may stand in several.
+    /// The places of an entry in the factory mappings of PDOs, RPDOs first, by number; an entry may be in several.
     pub fn pdos_with(&self, id: EntryId) -> impl Iterator<Item = Carrier<'_>> {
         let carries = move |field: &PdoField<'_>| field.mapped.target == PdoTarget::Entry(id);
         self.pdos

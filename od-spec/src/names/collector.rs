@@ -1,4 +1,4 @@
-//! What references are collected with: where a scalar stands, and how what it refers to is found and noted.
+//! What references are collected with: where a scalar is, and how what it refers to is found and noted.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -35,7 +35,7 @@ impl<'t> At<'_, 't> {
         })
     }
 
-    /// The value beside it of a key of the innermost map.
+    /// The value of a key of the innermost map, next to it.
     pub(super) fn beside(&self, key: &str) -> Option<&'t Node> {
         self.maps().next().and_then(|(map, ..)| map.get(key))
     }
@@ -83,7 +83,7 @@ impl<'a, 't> Collector<'a, 't> {
         self.known.named(Kind::Type, Scope::Everywhere, name, file)
     }
 
-    /// An entry by index; `range` is where it stands in the text.
+    /// An entry by index; `range` is where it is in the text.
     pub(super) fn numbered(
         &mut self,
         at: At<'_, 't>,
@@ -125,7 +125,7 @@ impl<'a, 't> Collector<'a, 't> {
         }
     }
 
-    /// An entry by name; `range` is where the name stands in the text.
+    /// An entry by name; `range` is where the name is in the text.
     pub(super) fn named_entry(&mut self, at: At<'_, 't>, range: Range<usize>, name: &str, devices: &[&str]) {
         let written = &at.text.value[range.clone()];
         let by = if written == name { By::Name } else { By::Pattern };

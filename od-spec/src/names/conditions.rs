@@ -14,7 +14,7 @@ use crate::yaml::Node;
 pub(super) fn condition<'t>(collector: &mut Collector<'_, 't>, at: At<'_, 't>) {
     let devices = at.devices();
     let mut asked = Asked { collector, at, devices };
-    // What cannot be read was reported; what stands before it is read.
+    // What cannot be read was reported; what is before it is read.
     let _ = without_names(at.text.value, &mut asked);
 }
 
@@ -24,7 +24,7 @@ struct Asked<'c, 'a, 'p, 't> {
     devices: Vec<&'t str>,
 }
 
-/// What stands for an entry that nobody knows.
+/// What represents an unknown entry.
 const UNKNOWN: EntryId = EntryId { index: Index(0), sub: SubIndex(0) };
 
 impl<'t> Asked<'_, '_, '_, 't> {
@@ -42,7 +42,7 @@ impl<'t> Asked<'_, '_, '_, 't> {
         vec![key]
     }
 
-    /// The name with the first number that its placeholder stands for.
+    /// The name with the first number that its placeholder represents.
     fn with_number(&self, name: &str) -> String {
         if !name.contains(PLACEHOLDER) {
             return name.to_owned();

@@ -144,7 +144,7 @@ fn objects<'t>(tree: &'t Node, known: &mut Known<'t>) {
     }
 }
 
-/// Adds what stands at a key of `objects:`.
+/// Adds what is at a key of `objects:`.
 fn object<'t>(known: &mut Known<'t>, (first, last): (Index, Index), place: Span, node: &'t Node) {
     let devices = node.get("devices").map(Node::one_or_more);
     let devices: Option<Vec<&str>> =
@@ -195,7 +195,7 @@ fn text_of<'t>(node: &'t Node, key: &str) -> Option<&'t str> {
     node.get(key).and_then(Node::text).map(|text| text.value)
 }
 
-/// Adds what describes entries of an object; without a name, a number stands for it.
+/// Adds what describes entries of an object; without a name, a number represents it.
 fn member<'t>(
     known: &mut Known<'t>,
     owner: DefinitionId,

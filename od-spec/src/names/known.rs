@@ -130,7 +130,7 @@ impl<'t> Known<'t> {
         self.objects.pdo(index, scope)
     }
 
-    /// The descriptions of entries of an object; where nobody describes one by itself, nothing.
+    /// The descriptions of entries of an object; where none is described by itself, nothing.
     pub(super) fn entries(
         &self,
         file: FileId,

@@ -2,7 +2,7 @@
 //!
 //! The definitions are read from the syntax trees alone, and the references from every scalar whose key, by the table of
 //! keys, holds a name ([`NameOf`](crate::keys::NameOf), an entry, a type, a condition …). So the index is also complete where
-//! something else is wrong, and a compilation that wants none pays nothing for it. What a name of an entry stands for on a
+//! something else is wrong, and a compilation that wants none pays nothing for it. What a name of an entry means on a
 //! device is asked of the model, by the lookup that compiling uses, as long as there is one.
 
 mod collector;
@@ -158,7 +158,7 @@ pub struct Reference {
     pub span: Span,
     /// The scalar.
     pub scalar: Span,
-    /// Where the part stands in the text of the scalar.
+    /// Where the part is in the text of the scalar.
     pub range: Range<usize>,
     /// What is referred to.
     pub kind: Kind,
@@ -170,7 +170,7 @@ pub struct Reference {
     pub entry: Option<EntryId>,
 }
 
-/// What stands at a place.
+/// What is at a place.
 #[derive(Debug, Clone, Copy)]
 pub enum Found<'n> {
     /// Something is defined there.
@@ -185,7 +185,7 @@ pub struct Names {
     definitions: Vec<Definition>,
     /// By place.
     references: Vec<Reference>,
-    /// Where names and keys of definitions stand, by place.
+    /// Where names and keys of definitions are, by place.
     places: Vec<(Span, DefinitionId)>,
 }
 
@@ -232,7 +232,7 @@ impl Names {
         self.references.iter().filter(move |reference| reference.targets.contains(&id))
     }
 
-    /// What is defined or referred to at a byte of a file; also right behind its last one.
+    /// What is defined or referred to at a byte of a file; also directly after its last one.
     pub fn at(&self, file: FileId, offset: u32) -> Option<Found<'_>> {
         let holds = |span: &Span| span.file == file && (span.start..=span.end).contains(&offset);
         let upto = self.references.partition_point(|one| (one.span.file, one.span.start) <= (file, offset));

@@ -21,7 +21,7 @@ pub(super) struct Described<'t> {
     pub type_name: Option<&'t str>,
     /// Members, elements and sub-index 0.
     pub members: Vec<Member<'t>>,
-    /// What stands for the elements of an array that have no description of their own.
+    /// What represents the elements of an array that have no description of their own.
     pub elements: Option<Member<'t>>,
 }
 
@@ -123,7 +123,7 @@ impl<'t> Objects<'t> {
         })
     }
 
-    /// What a name stands for where no model says it.
+    /// What a name means where no model states it.
     pub(super) fn named(&self, name: &str, scope: Devices<'_>) -> Option<NamedParts> {
         let whole: Vec<&Described<'_>> = self.by_name(name, scope).collect();
         if let Some(one) = whole.first() {
@@ -152,7 +152,7 @@ impl<'t> Objects<'t> {
     }
 }
 
-/// Whether a name is one that may stand with a placeholder.
+/// Whether a name is one that may have a placeholder.
 fn fits(written: &str, name: &str) -> bool {
     match written.split_once(PLACEHOLDER) {
         None => written == name,

@@ -20,7 +20,7 @@ pub struct Place<'t> {
 pub enum Spot<'t> {
     /// A key of a map with fixed keys, or a word that may become one.
     Key {
-        /// The map; the word, where that stands alone.
+        /// The map; the word, where that is alone.
         map: &'t Node,
         /// The keys that it may have.
         keys: &'static Keys,
@@ -29,7 +29,7 @@ pub enum Spot<'t> {
     },
     /// A key that is data.
     Data {
-        /// The map; the word, where that stands alone.
+        /// The map; the word, where that is alone.
         map: &'t Node,
         /// What its keys are.
         kind: KeyKind,
@@ -46,8 +46,8 @@ pub enum Spot<'t> {
 }
 
 impl<'t> Place<'t> {
-    /// What a byte of a text is a part of, right behind the last one included; `None` between keys and values, in comments and
-    /// below what is no key.
+    /// What a byte of a text is a part of, including directly after the last one; `None` between keys and values, in
+    /// comments and below what is not a key.
     pub fn of(root: &'t Node, offset: u32) -> Option<Self> {
         let keys = if root.get(PART_OF).is_some() { &PART } else { &SPEC };
         let mut finder = Finder { offset, path: Vec::new() };
@@ -60,7 +60,7 @@ impl<'t> Place<'t> {
         devices_of(&self.path)
     }
 
-    /// The value of a key beside it.
+    /// The value of a key next to it.
     pub fn beside(&self, key: &str) -> Option<&'t Node> {
         self.map().and_then(|(map, _)| map.get(key))
     }

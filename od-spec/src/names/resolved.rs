@@ -1,4 +1,4 @@
-//! What names of entries stand for on the devices of a model.
+//! What names of entries mean on the devices of a model.
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -24,7 +24,7 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// The entries that a name stands for, each on its device.
+    /// The entries that a name means, each on its device.
     pub(super) fn named<'s>(
         &'s self,
         name: &'s str,
@@ -37,7 +37,7 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    /// The name of the named type of the value that stands at a place, or in the list there.
+    /// The name of the named type of the value that is at a place, or in the list there.
     pub(super) fn type_of_value(&self, place: Span) -> Option<&'a str> {
         let types = self.types.get_or_init(|| {
             let entries = self.devices.iter().flat_map(|(device, _)| device.entries());

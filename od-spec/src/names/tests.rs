@@ -9,7 +9,7 @@ use crate::keys::{AXES, KeyKind, PART, PART_OF, SPEC, Shape};
 use crate::source::Spanned;
 use crate::{Compiled, Loader, add_source, compile, yaml};
 
-/// Reads what lies beside the shipped specifications.
+/// Reads what is next to the shipped specifications.
 struct Beside;
 
 impl Loader for Beside {
@@ -104,7 +104,7 @@ fn every_scalar_that_names_something_is_one_reference() {
                 let place = read.sources.place(span);
                 let parts =
                     by_scalar.get(&span).unwrap_or_else(|| panic!("{place}: `{text}` refers to nothing"));
-                // The parts of one reference lie one behind the other, and a condition holds several.
+                // The parts of one reference follow one another, and a condition holds several.
                 for pair in parts.windows(2) {
                     assert!(pair[0].range.end <= pair[1].range.start, "{place}: {text}");
                 }
@@ -128,13 +128,13 @@ fn every_scalar_that_names_something_is_one_reference() {
 }
 
 /// Whether some text describes what a reference is to by itself: bits by number have no name, and neither have sub-indices of
-/// elements and counts that nobody describes, or objects of a standard that only follow from others.
+/// elements and counts that have no description, or objects of a standard that only follow from others.
 fn explains(part: &Reference) -> bool {
     !(part.by == By::Number && matches!(part.kind, Kind::Bit | Kind::Entry))
 }
 
 #[test]
-fn every_definition_stands_where_its_name_is() {
+fn every_definition_is_where_its_name_is() {
     for read in shipped(true) {
         for (_, one) in read.names.definitions() {
             let written = read.sources.text(one.span);
@@ -254,7 +254,7 @@ fn names_of_entries_types_and_values_lead_to_where_they_are_described() {
 }
 
 #[test]
-fn a_text_that_is_broken_in_the_middle_has_names_before_and_behind() {
+fn a_text_that_is_broken_in_the_middle_has_names_before_and_after() {
     let broken = SMALL.replace("type: flags, access: rw,", "type: flags, access: {rw,");
     let mut sources = SourceMap::new();
     let root = sources.add("small.od.yaml", broken.as_str());

@@ -53,7 +53,7 @@ pub(super) fn devices_of<'t>(path: &[Step<'t>]) -> Vec<&'t str> {
     Vec::new()
 }
 
-/// What a scalar is where it stands.
+/// What a scalar is where it is.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Role {
     /// A value.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::model::Index;
 
-/// The numbers that the placeholders of a name stand for.
+/// The numbers that the placeholders of a name mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Numbers {
     /// Number of the PDO, from 1.
@@ -35,7 +35,7 @@ pub enum Digits {
     UpperHex,
 }
 
-/// What stands in braces.
+/// What is in braces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Placeholder {
     /// `{index}`: the object's index as in `1400h`.
@@ -86,7 +86,7 @@ impl Placeholder {
         }
     }
 
-    /// What it stands for; `None` where there is no such number.
+    /// What it means; `None` where there is no such number.
     pub fn value(self, numbers: Numbers) -> Option<String> {
         let Self::Number { counted, from_zero, digits } = self else {
             return Some(numbers.index.to_string());
@@ -103,7 +103,7 @@ impl Placeholder {
         })
     }
 
-    /// Whether it stands for a number that only mapped entries have.
+    /// Whether it means a number that only mapped entries have.
     pub const fn is_of_entry(self) -> bool {
         matches!(self, Self::Number { counted: Counted::Entry, .. })
     }

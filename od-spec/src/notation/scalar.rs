@@ -29,7 +29,7 @@ impl NumberError {
 /// An integer: decimal, `0x`, `0b` or `0o`, with `_` between digits, with an optional sign.
 ///
 /// # Errors
-/// The text is no number, begins with a zero that CiA 306 reads as octal, or has more than 64 bits.
+/// The text is not a number, begins with a zero that CiA 306 reads as octal, or has more than 64 bits.
 pub fn integer(text: &str) -> Result<i128, NumberError> {
     let (negative, digits) = match text.strip_prefix('-') {
         Some(rest) => (true, rest),

@@ -9,7 +9,7 @@ use crate::visible::{is_hidden, turns_text};
 /// A text `ENTRY=VALUE`.
 ///
 /// # Errors
-/// There is no `=` in it, or a character that nobody sees.
+/// There is no `=` in it, or an invisible character.
 pub(super) fn setting(assignment: &Assignment) -> Result<SettingDecl, Diagnostic> {
     let Assignment { value: text, span } = assignment;
     if let Some((at, c)) = text.char_indices().find(|(_, c)| is_hidden(*c)) {
@@ -31,7 +31,7 @@ pub(super) fn setting(assignment: &Assignment) -> Result<SettingDecl, Diagnostic
 
 /// As in a specification, which cannot hold a control character without an escape.
 fn hidden(span: Span, c: char) -> Diagnostic {
-    let what = if turns_text(c) { "turns the text around it" } else { "nobody sees" };
+    let what = if turns_text(c) { "turns the text around it" } else { "is invisible" };
     Diagnostic::new(codes::TURNED_TEXT, span, format!("found U+{:04X}, which {what}", u32::from(c)))
         .help("remove the character")
 }

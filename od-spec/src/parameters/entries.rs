@@ -129,7 +129,7 @@ fn unknown(name: &Name, message: String, help: String) -> Box<Diagnostic> {
 
 fn ambiguous(name: &Name, decimal: EntryId, hexadecimal: EntryId) -> Box<Diagnostic> {
     let message = format!(
-        "sub-index {0} is {0} in decimal and {1} in hexadecimal, and behind a colon both are usual",
+        "sub-index {0} is {0} in decimal and {1} in hexadecimal, and after a colon both are usual",
         decimal.sub, hexadecimal.sub
     );
     let Index(index) = decimal.index;

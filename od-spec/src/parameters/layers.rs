@@ -40,7 +40,7 @@ pub struct Origin {
     pub layer: usize,
     /// The entry that the setting names, which may be a view of the one that holds the value.
     pub id: EntryId,
-    /// Where the setting stands.
+    /// Where the setting is written.
     pub span: Span,
 }
 

@@ -95,7 +95,7 @@ pub(crate) fn assign_with(
     assign_layers_with(rules, system, device, node, &[layer], diagnostics).values
 }
 
-/// The settings of texts `ENTRY=VALUE`, as a layer has them; what is none goes to `diagnostics`.
+/// The settings of texts `ENTRY=VALUE`, as a layer has them; what is not one is reported to `diagnostics`.
 pub fn settings(assignments: &[Assignment], diagnostics: &mut Diagnostics) -> Vec<SettingDecl> {
     let mut settings = Vec::new();
     for assignment in assignments {
@@ -200,7 +200,7 @@ pub(crate) fn of_node(
         pdo.follow(objects);
     }
     check::foreign_node(rules, system, &configured, node, diagnostics);
-    // What the identity says is no statement of its own.
+    // What the identity says is not a statement of its own.
     let of_identity = configured.entry(SERIAL_NUMBER).and_then(|entry| entry.default.as_ref()?.integer());
     let serial_number = decl.serial_number.filter(|number| of_identity != Some(i128::from(*number)));
     let mut read = Commissioning {

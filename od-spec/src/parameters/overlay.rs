@@ -8,7 +8,7 @@ use crate::model::{Alias, Author, Dictionary, Entry, EntryId, Outside, Statement
 use crate::source::Span;
 
 /// The device as it is once the settings are downloaded to a node. A value that is set has its place in the setting; so have
-/// the entry behind a view, and what follows from it.
+/// the target of a view, and what follows from it.
 pub(super) fn configured<'a>(
     device: &Dictionary,
     node: u8,

@@ -67,7 +67,7 @@ fn value(
             bit_values::read(&bits, fields, entry.data_type, &mut diagnostics)
         }
         (DefaultDecl::One(text), _) => {
-            // Blanks around a number are no part of it, but a text may not lose them unnoticed.
+            // Spaces around a number are not part of it, but a text may not lose them unnoticed.
             let is_text = matches!(entry.data_type, DataType::VisibleString | DataType::UnicodeString);
             let text = if is_text { text } else { text.trim() };
             match values::read(text, written.span, expected(entry), suggestions) {
@@ -103,7 +103,7 @@ fn listed(text: &str, span: Span) -> Option<Vec<Spanned<DefaultDecl>>> {
 fn no_such_form(id: EntryId, entry: &Entry, written: &Spanned<DefaultDecl>) -> Diagnostic {
     let name = &entry.name;
     let message = match &written.value {
-        DefaultDecl::Each(_) => format!("a list names bits, and {id} ({name}) is no bit field"),
+        DefaultDecl::Each(_) => format!("a list names bits, and {id} ({name}) is not a bit field"),
         DefaultDecl::One(_) | DefaultDecl::ByDevice(_) => {
             format!("a map has the entries of an object, and {id} ({name}) is one value")
         }
@@ -139,7 +139,7 @@ fn no_whole_steps(device: &Dictionary, id: EntryId, alias: &Alias, raw: i128, sp
     let name = |id| device.entry(id).map_or("", |entry| entry.name.as_str());
     let shown = device.entry(id).map(|entry| format_value(entry, &Value::Integer(raw)));
     let message = format!(
-        "{id} ({}): {} is no whole number of steps of {} ({})",
+        "{id} ({}): {} is not a whole number of steps of {} ({})",
         name(id),
         shown.unwrap_or_default(),
         alias.target,

@@ -1,4 +1,4 @@
-//! The messages on the bus of a machine: who sends and who receives which COB-ID.
+//! The messages on the bus of a machine: which node sends and which receives each COB-ID.
 
 use super::{Plant, Settled};
 use crate::model::{Dictionary, Index, Object};
@@ -60,12 +60,12 @@ impl OnTheBus {
 }
 
 impl Message {
-    /// Where somebody can change it: where its identifier is set, or else where the node has its node-ID.
+    /// Where it can be changed: where its identifier is set, or else where the node has its node-ID.
     pub(super) fn place(&self, plant: &Plant) -> Option<Span> {
         self.set_at.or_else(|| plant.nodes.get(self.node).map(|node| node.node.span))
     }
 
-    /// `TPDO 1 of pmc at position B (node 22)`: a bus has one machine, which is said beside it.
+    /// `TPDO 1 of pmc at position B (node 22)`: a bus has one machine, which is named next to it.
     pub(super) fn short(&self, plant: &Plant) -> String {
         let Some(node) = plant.nodes.get(self.node) else { return self.traffic.words() };
         let key = plant.devices.get(node.device).map_or("", |device| &device.key);

@@ -40,7 +40,7 @@ pub(super) fn check(decl: &PlantDecl, diagnostics: &mut Diagnostics) {
             let what = format!("type `{}`", of_machine.name.value);
             names.level(&machine.level, &Positions::of([of_machine]), &what, diagnostics);
         }
-        // Without a type nobody knows what a machine has; that is said.
+        // Without a type it is unknown what a machine has; that is reported.
         if !all.is_empty() {
             names.devices_at_positions(&site.level, diagnostics);
             let what = format!("every machine of site `{}`", site.name.value);
@@ -87,7 +87,7 @@ impl<'a> Names<'a> {
     /// Whether the plant has a device; says so if not.
     fn knows(&self, name: &Name, diagnostics: &mut Diagnostics) -> bool {
         let is_known = self.devices.contains(&name.value.as_str());
-        // That a key is none is said already.
+        // A key that is not one is already reported.
         if !is_known && is_device_key(&name.value) {
             let message = format!("the plant has no device `{}`", shorten(&name.value));
             let help = help(&name.value, self.devices.iter().copied(), "its devices are", diagnostics);

@@ -229,7 +229,7 @@ fn refuse_crossing(site: &SiteDecl, runs: &[(u32, u32, usize)], diagnostics: &mu
     }
 }
 
-/// Where machines are counted in runs, a single number beside them may be meant as one of them.
+/// Where machines are counted in runs, a single number next to them may be meant as one of them.
 fn warn_beside(site: &SiteDecl, diagnostics: &mut Diagnostics) {
     let runs: Vec<(u32, u32)> = site
         .machines

@@ -92,13 +92,13 @@ pub struct MachineType {
     pub name: String,
     /// What it is.
     pub about: Option<String>,
-    /// The master, where the file tells of one.
+    /// The master, where the file has one.
     pub master: Option<Master>,
     /// Where it is defined.
     pub span: Span,
 }
 
-/// What is on a bus beside the nodes.
+/// What is on a bus in addition to the nodes.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Master {
@@ -170,7 +170,7 @@ pub struct PlantNode {
     pub serial: Option<Spanned<u32>>,
     /// A remark.
     pub comment: Option<String>,
-    /// Positions of the levels that tell what it is set to, the first one first.
+    /// Positions of the levels that state what it is set to, the first one first.
     pub layers: Vec<usize>,
     /// Position of its class.
     pub class: usize,
@@ -191,7 +191,7 @@ pub struct Class {
     pub count: usize,
 }
 
-/// A device with a node-ID and the levels that tell what it is set to.
+/// A device with a node-ID and the levels that state what it is set to.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub struct Member {
@@ -287,7 +287,7 @@ impl Plant {
         )
     }
 
-    /// The node as a DCF tells of it, with the values of its class.
+    /// The node as a DCF describes it, with the values of its class.
     pub fn commissioning(&self, node: &PlantNode, settled: &Settled) -> Commissioning {
         let mut commissioning = settled.commissioning.clone();
         commissioning.node_name.clone_from(&node.node_name);

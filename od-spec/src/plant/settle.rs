@@ -102,7 +102,7 @@ impl Plant {
                         format!("{id} ({name}) is locked, and {} does not unlock it", level.words());
                     diagnostics.push(
                         Diagnostic::new(check::codes::LOCKED, origin.span, message)
-                            .help("each level unlocks what it sets: name the entry under `unlock:` beside these parameters"),
+                            .help("each level unlocks what it sets: name the entry under `unlock:` next to these parameters"),
                     );
                 }
             }
@@ -110,8 +110,8 @@ impl Plant {
     }
 }
 
-/// The system as a node sees it: other devices as they are set beside it. Conditions with a device that is not there, or of which
-/// nobody knows which one is meant, say nothing.
+/// The system as a node sees it: other devices as they are set on the same bus. Conditions with a device that is not
+/// there, or of which it is unknown which one is meant, say nothing.
 fn surroundings<'a>(system: &'a System, own: &str, others: Vec<Dictionary>) -> Cow<'a, System> {
     let is_there = |key: &str| key == own || others.iter().any(|other| other.key == key);
     let named = |constraint: &Constraint, is_fine: &dyn Fn(&str) -> bool| {

@@ -260,7 +260,7 @@ fn follow(entry: &mut Entry, alias: &Alias, decl: &EntryDecl, target: &Target<'_
     if entry.writable_when.is_none() && entry.access.is_writable() {
         entry.writable_when.clone_from(&target.entry.writable_when);
     }
-    // Whoever writes the alias does the same.
+    // Writing the alias does the same.
     if entry.warning.is_empty() && entry.access.is_writable() {
         entry.warning.clone_from(&target.entry.warning);
     }

@@ -17,7 +17,7 @@ impl Figures<'_, '_> {
             let message = format!("an axis with more than {MARKS} marks or {SPANS} spans");
             diagnostics.push(
                 Diagnostic::new(codes::TOO_MUCH, beyond.part(0, 1), message)
-                    .help("describe several axes, one behind the other"),
+                    .help("describe several axes, one after the other"),
             );
             return None;
         }

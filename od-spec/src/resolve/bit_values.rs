@@ -31,7 +31,7 @@ impl<'a> SetBits<'a> {
 }
 
 fn not_a_bit(place: Span) -> Diagnostic {
-    Diagnostic::new(codes::BAD_VALUE, place, "this is no bit of a bit field")
+    Diagnostic::new(codes::BAD_VALUE, place, "this is not a bit of a bit field")
         .help("write the name of a bit, or a run of bits with its value: `{mode: homing}`")
 }
 
@@ -145,7 +145,7 @@ fn place(field: &BitField) -> String {
     if first == last { format!("bit {first}") } else { format!("bits {first} to {last}") }
 }
 
-/// A run of bits has a value, which its name alone does not tell.
+/// A run of bits has a value, which its name alone does not show.
 fn without_value(field: &BitField, name: &Name) -> Diagnostic {
     let shown = shorten(&name.value);
     let example = field.values.last().map_or_else(|| highest(field).to_string(), |value| value.name.clone());
@@ -173,7 +173,7 @@ pub(super) fn value_of(field: &BitField, text: &Name, diagnostics: &mut Diagnost
         .label(format!("allowed: 0 to {}", highest(field)))
         .help("correct the value"),
         (None, meant) => {
-            let message = format!("`{shown}` is no value of `{}`", shorten(&field.name));
+            let message = format!("`{shown}` is not a value of `{}`", shorten(&field.name));
             let diagnostic = Diagnostic::new(rule_codes::UNKNOWN_ENUM_VALUE, text.span, message);
             let number = format!("write a number, 0 to {}", highest(field));
             match meant {

@@ -119,7 +119,7 @@ fn stated<'d>(device: &'d DeviceDecl, diagnostics: &mut Diagnostics) -> BTreeMap
     stated
 }
 
-/// An array of a library with so many elements; what is no array stays as it is.
+/// An array of a library with so many elements; what is not an array stays as it is.
 pub(super) fn with_elements(decl: &ObjectDecl, count: i128) -> ObjectDecl {
     let array = decl.array.as_ref().map(|array| {
         let count = Some(Spanned::new(count, array.span));
@@ -128,7 +128,7 @@ pub(super) fn with_elements(decl: &ObjectDecl, count: i128) -> ObjectDecl {
     ObjectDecl { array, ..decl.clone() }
 }
 
-/// A feature with channels, of which nobody says how many there are.
+/// A feature with channels, the number of which is not stated.
 fn number_missing(device: &DeviceDecl, feature: &str, name: &Name) -> Diagnostic {
     // The place of a need is in the library; the device is whose list lacks it.
     let selecting = device.features.iter().find(|choice| choice.value.name.value == feature);

@@ -96,7 +96,7 @@ pub(super) fn resolve(
     if text.value.contains(PLACEHOLDER) {
         diagnostics.push(
             Diagnostic::new(codes::BAD_NOTATION, text.span, "`{n}` has no number here")
-                .help("write a number; only a constraint can stand for several"),
+                .help("write a number; only a constraint can have several"),
         );
         return None;
     }
@@ -119,7 +119,7 @@ pub(super) fn resolve(
                     text.span,
                     format!("cannot read this condition: {message}"),
                 )
-                .help("correct the condition, or the numbers that `{n}` stands for"),
+                .help("correct the condition, or the numbers of `{n}`"),
             );
             None
         }
@@ -202,7 +202,7 @@ impl Lookup for OfDevice<'_, '_> {
         let exists = |id| described.entry(id).is_some();
         let id = described.names.find(&reference, exists, self.broken, self.diagnostics)?;
         let object = described.objects.get(&id.index).filter(|object| object.is_structured());
-        // Its sub-index 0 is how many entries it has, which nobody means by its name.
+        // Its sub-index 0 is how many entries it has, which is never meant by its name.
         if let Some(object) = object.filter(|object| id.sub.0 == 0 && object.is_called(name.text)) {
             self.diagnostics.push(whole_object(object, place));
             return None;
@@ -219,7 +219,7 @@ impl Lookup for OfDevice<'_, '_> {
             let names = values(entry).iter().map(|value| value.name.as_str());
             let meant = self.diagnostics.suggestions.nearest(name.text, names).filter(|_| !is_entry);
             let Some(meant) = meant else { return self.entry(name).map(Operand::Entry) };
-            let message = format!("`{}` is no value of `{}`", shorten(name.text), shorten(&entry.name));
+            let message = format!("`{}` is not a value of `{}`", shorten(name.text), shorten(&entry.name));
             self.diagnostics.push(
                 Diagnostic::new(rule_codes::UNKNOWN_ENUM_VALUE, inside(self.text, &name.range), message)
                     .did_you_mean(meant),
@@ -246,7 +246,7 @@ impl Lookup for OfDevice<'_, '_> {
         // An entry that nothing has was reported.
         let entry = self.find(of)?;
         let Some(TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind) else {
-            let message = format!("the type of `{}` is no bit field", shorten(&entry.name));
+            let message = format!("the type of `{}` is not a bit field", shorten(&entry.name));
             self.diagnostics.push(
                 Diagnostic::new(codes::UNKNOWN_BIT, place, message).help("write the number of the bit"),
             );

@@ -35,7 +35,7 @@ pub(super) fn resolve(
             varied.is_refused(entry.id.index, place, keys(), help, diagnostics);
         }
     }
-    // What the devices call their entries; nobody asks where no condition has names.
+    // What the devices call their entries; they are not needed where no condition has names.
     let described = OnceCell::new();
     let describe = || -> Vec<Described<'_>> {
         devices.iter().map(|device| Described::new(&device.key, &device.objects)).collect()
@@ -140,7 +140,7 @@ fn check_write_conditions(
                 ConditionDecl::Plain(plain) => Some(plain),
                 ConditionDecl::Named(_) => named_write_condition(device, decl.index.value, condition.span),
             };
-            // What names stand for was looked for already.
+            // The names were looked up already.
             let Some(understood) = understood else { continue };
             let understood = Spanned::new(understood.clone(), condition.span);
             check_known(&understood, Meant::One(device), broken, diagnostics);
@@ -349,7 +349,7 @@ fn unprefixed_in(condition: &Spanned<Expr>) -> impl Iterator<Item = (&EntryRef, 
 struct Understood<'a> {
     require: Spanned<Expr>,
     when: Option<Spanned<Expr>>,
-    /// The devices on which the names stand for these; all where there are no names.
+    /// The devices on which the names mean these; all where there are no names.
     devices: Option<Vec<&'a str>>,
 }
 
@@ -406,7 +406,7 @@ fn understood<'a, 'd>(
         return None;
     };
     if let Some((other, _)) = found.iter().find(|(_, one)| one.0 != *plain_require || one.1 != *plain_when) {
-        let message = format!("the names stand for other entries on `{first}` than on `{other}`");
+        let message = format!("the names mean other entries on `{first}` than on `{other}`");
         diagnostics.push(
             Diagnostic::new(codes::CONSTRAINT_DEVICES, require.span, message)
                 .help("write indices, or `device:` before the names, or a constraint for each device"),

@@ -95,7 +95,7 @@ fn indices(written: &[&ObjectDecl]) -> BTreeSet<Index> {
     written.iter().map(|decl| decl.index.value).collect()
 }
 
-/// The declarations that stand in the specification itself.
+/// The declarations that are in the specification itself.
 fn of_specification<'a>(
     written: &[&'a ObjectDecl],
     libraries: &Libraries<'a>,
@@ -144,7 +144,7 @@ fn not_taken(decl: &ObjectDecl, library: &str) -> Diagnostic {
     let index = decl.index.value;
     let message = format!("object {index} has neither a name nor `from: {library}`");
     Diagnostic::new(codes::MISSING_KEY, decl.index.span, message)
-        .help(format!("write `from: {library}` beside what differs from the library's, or describe the object with `name:` and `type:`"))
+        .help(format!("write `from: {library}` next to what differs from the library's, or describe the object with `name:` and `type:`"))
 }
 
 fn from_library<'a>(
@@ -291,7 +291,7 @@ fn differences(over: &EntryDecl, below: &EntryDecl, scope: &Scope) -> Vec<Fact> 
     };
     let same = on_the_bus(over).is_some() && on_the_bus(over) == on_the_bus(below);
     let lower = |entry: &EntryDecl| entry.name.as_ref().map(|name| name.value.to_lowercase());
-    // What the library leaves to the device is no difference, nor is a name with other capitals.
+    // What the library leaves to the device is no difference, nor is a name in another case.
     let left_open = |fact: Fact| match fact {
         Fact::Name => lower(over) == lower(below),
         Fact::Default => below.default.is_none(),

@@ -127,7 +127,7 @@ pub(super) fn check_devices(
 }
 
 fn two_meanings(key: &Name) -> Diagnostic {
-    let message = format!("`{}` is a device, and what a heartbeat consumer is told by", key.value);
+    let message = format!("`{}` is a device, and also a key of a heartbeat consumer", key.value);
     Diagnostic::new(codes::BAD_VALUE, key.span, message)
         .help("write the consumers as a list under `array:`, or the raw value")
 }

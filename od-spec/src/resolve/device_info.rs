@@ -13,7 +13,7 @@ use crate::source::{Span, Spanned};
 /// An EDS must have dates; a specification without them gets a fixed one, so that output never depends on the day.
 const EPOCH: DateTime = DateTime { date: Date { year: 2000, month: 1, day: 1 }, hour: 0, minute: 0 };
 
-/// Where the facts about a device stand.
+/// Where the facts about a device are written.
 pub(super) fn facts(device: &DeviceDecl) -> Facts {
     let rates = device.bit_rates.iter().map(|rate| rate.span).reduce(Span::to);
     let granularity = device.granularity.map(|granularity| granularity.span);

@@ -223,7 +223,7 @@ impl Builder<'_> {
             if let Some(object) = objects::resolve(one, self.around, diagnostics) {
                 self.objects.insert(*index, object);
             }
-            // An object may stand there without the entries that are wrong.
+            // An object may be there without the entries that are wrong.
             if diagnostics.errors_found() > before || !self.objects.contains_key(index) {
                 self.broken.add(*index, one.decl.entry.names());
             }

@@ -76,7 +76,7 @@ fn table(
 ) -> Option<Table> {
     let indices = |list: &[Spanned<Index>]| list.iter().map(|index| index.value).collect();
     let content = match content {
-        // It is no table.
+        // It is not a table.
         ContentDecl::Prose(..) => return None,
         ContentDecl::Overview(list) => TableContent::Overview(indices(list)),
         ContentDecl::Objects(list) => TableContent::Objects(indices(list)),
@@ -280,10 +280,10 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
                 contents.check(&content.value, diagnostics);
                 let is_prose = matches!(content.value, ContentDecl::Prose(..));
                 if let Some(figure) = decl.figure.as_ref().filter(|_| !is_prose && !is_drawn(&content.value)) {
-                    let message = "nothing is drawn of this content, so that it is no figure";
+                    let message = "nothing is drawn of this content, so that it is not a figure";
                     diagnostics.push(
                         Diagnostic::new(codes::CONFLICTING_KEYS, figure.span, message)
-                            .with(content.span, "the content stands here")
+                            .with(content.span, "the content is here")
                             .help("remove the key; it belongs to `bits`, `states`, `ladder`, `timing`, `hysteresis`, `flow` and `axis`"),
                     );
                 }
@@ -291,14 +291,14 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
                     let message = format!("`{}` has {what}", kind.word());
                     diagnostics.push(
                         Diagnostic::new(codes::CONFLICTING_KEYS, table, message)
-                            .with(content.span, "a text stands here")
+                            .with(content.span, "a text is here")
                             .help("remove the key; it belongs to tables"),
                     );
                 }
             }
             [first, second, ..] => diagnostics.push(
                 Diagnostic::new(codes::CONFLICTING_KEYS, second.span, "a text or table is one of these keys only")
-                    .with(first.span, "the first stands here")
+                    .with(first.span, "the first is here")
                     .help("keep one of the keys, or make two of it"),
             ),
             [] if decl.unsure => {}
@@ -318,7 +318,7 @@ fn of_table(decl: &PartDecl) -> Option<(Span, &'static str)> {
     of_both.map(|span| (span, "neither number nor title")).or(figure)
 }
 
-/// Reports a number that stood before.
+/// Reports a number that was used before.
 fn is_new<N: Ord + Copy + fmt::Display, T>(
     what: &str,
     number: N,

@@ -17,7 +17,7 @@ use crate::model::{
 };
 use crate::source::Spanned;
 
-/// Resolves an entry; `None` when it is too broken to stand for anything.
+/// Resolves an entry; `None` when it is too broken to mean anything.
 pub(super) fn resolve(
     decl: &EntryDecl,
     sub: SubIndex,
@@ -121,7 +121,7 @@ fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics
             Diagnostic::new(
                 codes::CONFLICTING_KEYS,
                 capacity.span,
-                format!("`capacity` has no effect here: {data_type} is no string"),
+                format!("`capacity` has no effect here: {data_type} is not a string"),
             )
             .help("remove it; only strings have a capacity"),
         );
@@ -142,7 +142,7 @@ fn capacity(decl: &EntryDecl, data_type: DataType, diagnostics: &mut Diagnostics
     Some(bytes)
 }
 
-/// The name in generated code; `None` also for one that is none, which is reported.
+/// The name in generated code; `None` also for one that is not valid, which is reported.
 pub(super) fn identifier(decl: &EntryDecl, diagnostics: &mut Diagnostics) -> Option<String> {
     let name = decl.identifier.as_ref()?;
     if is_identifier(&name.value) {
@@ -161,7 +161,7 @@ pub(super) fn is_identifier(name: &str) -> bool {
 
 /// A text that cannot.
 pub(super) fn no_identifier(name: &Name) -> Diagnostic {
-    let message = format!("`{}` is no identifier", shorten(&name.value));
+    let message = format!("`{}` is not an identifier", shorten(&name.value));
     Diagnostic::new(codes::BAD_NOTATION, name.span, message)
         .help("write lower-case words joined by single `_`, beginning with a letter: `speed_limit_2`")
 }
@@ -296,7 +296,7 @@ fn bit_errors(
                             };
                             format!("type `{}` does not list {run}", shorten(&named.name))
                         }
-                        _ => "the entry's type is no bit field".to_owned(),
+                        _ => "the entry's type is not a bit field".to_owned(),
                     },
                 )
                 .help("name a bit, or the whole run of bits, of the entry's bit field type"),

@@ -150,7 +150,7 @@ fn kinds(
             Diagnostic::new(
                 codes::REGISTER_OF_NO_ERROR,
                 first.span,
-                format!("{code:04X}h is no error, and sets no bit of the error register"),
+                format!("{code:04X}h is not an error, and sets no bit of the error register"),
             )
             .help("remove `register:`"),
         );

@@ -86,7 +86,7 @@ pub(super) struct Named<'a> {
 }
 
 impl<'a> Named<'a> {
-    /// Names in order; nothing where one is missing, which was said, or stands twice.
+    /// Names in order; nothing where one is missing, which was reported, or is written twice.
     pub(super) fn of(
         what: &'static str,
         names: impl Iterator<Item = Option<&'a Spanned<Text>>>,
@@ -97,7 +97,7 @@ impl<'a> Named<'a> {
         for (at, name) in named.names.iter().enumerate() {
             let has_its_name = |before: &&&Spanned<Text>| shares_a_word(&before.value, &name.value);
             if let Some(before) = named.names[..at].iter().find(has_its_name) {
-                let message = format!("the {what} `{}` stands twice", named.shown(at));
+                let message = format!("the {what} `{}` is written twice", named.shown(at));
                 diagnostics.push(
                     Diagnostic::new(rule_codes::DUPLICATE_NAME, name.span, message)
                         .label("again here")
@@ -127,7 +127,7 @@ impl<'a> Named<'a> {
         shorten(self.names[at].value.iter().next().map_or("", |(_, text)| text))
     }
 
-    /// Where a name stands.
+    /// Where a name is.
     pub(super) fn place(&self, at: usize) -> Span {
         self.names[at].span
     }

@@ -73,7 +73,7 @@ fn is_too_large(decls: &[Spanned<BlockDecl>], diagnostics: &mut Diagnostics) -> 
     };
     diagnostics.push(
         Diagnostic::new(codes::TOO_MUCH, beyond.part(0, 1), format!("a diagram with {what}"))
-            .help("describe several diagrams, one behind the other"),
+            .help("describe several diagrams, one after the other"),
     );
     true
 }

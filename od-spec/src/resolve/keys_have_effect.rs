@@ -1,4 +1,4 @@
-//! No key is read and then ignored: what stands in a specification has an effect where it stands.
+//! No key is read and then ignored: what is written in a specification has an effect where it is written.
 
 use std::collections::BTreeSet;
 
@@ -126,7 +126,7 @@ pub(super) fn check_object(object: &ObjectDecl, diagnostics: &mut Diagnostics) {
     if alias.is_none() {
         for (key, span) in [("outside", outside.map(|o| o.span)), ("rounding", rounding.map(|r| r.span))] {
             if let Some(span) = span {
-                refuse(key, span, "the object is no alias", "remove it, or add `alias:`", diagnostics);
+                refuse(key, span, "the object is not an alias", "remove it, or add `alias:`", diagnostics);
             }
         }
     }
@@ -163,7 +163,7 @@ pub(super) fn check_taken(
     let of_array = decl.array.as_ref().map(|array| &array.entry);
     for common in [Some(&of_object), of_array].into_iter().flatten().filter(|common| !common.unsure) {
         for (key, fact) in common.stated() {
-            // What a library says is told to nobody, nor is what the object has that this one is like.
+            // What a library has is not reported, nor what the object has that this one is like.
             let is_makers =
                 key.span.file.is_one_with(around.file) && decl.like.is_none_or(|like| like.span != key.span);
             let is_taken =

@@ -109,7 +109,7 @@ enum State {
     Refused,
 }
 
-/// The objects that can be made, each behind the one that it is like.
+/// The objects that can be made, each after the one that it is like.
 fn in_order<'a>(
     waiting: &Waiting<'a>,
     mut is_there: impl FnMut(Spanned<Index>, &ObjectDecl, &mut Diagnostics) -> bool,
@@ -232,17 +232,17 @@ fn is_of_another_kind(
         (
             "alias",
             over.alias.as_ref().map(|alias| alias.span),
-            below.alias.is_none().then_some("the object that this one is like is no alias"),
+            below.alias.is_none().then_some("the object that this one is like is not an alias"),
         ),
         (
             "array",
             over.array.as_ref().map(|array| array.span),
-            below.array.is_none().then_some("the object that this one is like is no array"),
+            below.array.is_none().then_some("the object that this one is like is not an array"),
         ),
         (
             "record",
             over.record.as_ref().map(|record| record.span),
-            below.record.is_none().then_some("the object that this one is like is no record"),
+            below.record.is_none().then_some("the object that this one is like is not a record"),
         ),
     ];
     let mut refused = refused.into_iter().filter_map(|(key, place, why)| Some((key, place?, why?)));

@@ -41,7 +41,7 @@ impl<'a> Lookup<'a> {
         if let Some(HexReference::Ambiguous { decimal, hexadecimal }) = by_index {
             return Err(NotFound::Ambiguous { decimal, hexadecimal });
         }
-        // A person at a command line does not care for capitals, as long as it is clear what is meant.
+        // At a command line, upper and lower case are the same, as long as it is clear what is meant.
         match self.alike(names).get(&text.to_lowercase()) {
             Some(Some(id)) => Ok(*id),
             _ => Err(NotFound::Unknown {
@@ -52,7 +52,7 @@ impl<'a> Lookup<'a> {
         }
     }
 
-    /// The object that a text without a sub-index stands for.
+    /// The object that a text without a sub-index means.
     pub(crate) fn object(&self, text: &str) -> Option<Index> {
         let is_whole = !text.contains(['.', ':']) && !text.to_ascii_lowercase().contains("sub");
         if is_whole
@@ -67,7 +67,7 @@ impl<'a> Lookup<'a> {
             // Which one is meant is not clear where there are more.
             return named.next().is_none().then_some(object.index);
         }
-        // As for entries, capitals do not matter where it is clear what is meant.
+        // As for entries, case does not matter where it is clear what is meant.
         let lower = text.to_lowercase();
         let mut alike = self.dictionary.objects.values().filter(|object| object.name.to_lowercase() == lower);
         let only = alike.next()?;

@@ -175,9 +175,8 @@ fn machine(
     if decl.states.len() > STATES {
         let message = format!("{} states; a state machine has at most {STATES}", decl.states.len());
         diagnostics.push(
-            Diagnostic::new(codes::TOO_MUCH, decl.name.span, message).help(
-                "describe several machines, each with the states that are told apart by its status entry",
-            ),
+            Diagnostic::new(codes::TOO_MUCH, decl.name.span, message)
+                .help("describe several machines, each with the states that its status entry distinguishes"),
         );
         return None;
     }
@@ -379,7 +378,7 @@ fn check_width(
     None
 }
 
-/// The bits of an entry that stand for states or commands; `None` for one of another type than an integer.
+/// The bits of an entry that mean states or commands; `None` for one of another type than an integer.
 fn width(entry: EntryId, device: &Dictionary) -> Option<u16> {
     let data_type = device.entry(entry)?.data_type;
     data_type.bits().filter(|_| data_type.is_integer())
@@ -391,7 +390,7 @@ fn check_states_differ(decl: &MachineDecl, states: &[State], diagnostics: &mut D
         decl.states.iter().rev().map(|state| (state.name.value.as_str(), state.name.span)).collect();
     for (at, later) in states.iter().enumerate() {
         let (later_mask, later_value) = later.pattern.mask_and_value();
-        // One other state is enough: the next message tells of another.
+        // One other state is enough: the next message names another.
         let state = states[..at].iter().find(|state| {
             let (mask, value) = state.pattern.mask_and_value();
             let common = mask & later_mask;

@@ -30,7 +30,7 @@ struct Parameter {
     /// Where nothing is said about it.
     access: Access,
     default: Option<Value>,
-    /// Where the value stands.
+    /// Where the value is written.
     stated: Option<Statement>,
     about: Option<About>,
 }
@@ -165,7 +165,7 @@ pub(super) fn communication_object(pdo: &Pdo, decl: &PdoDecl, described: &Descri
     }
     let said = described.communication_object(pdo);
     let mut object = object(pdo.communication_index(), said, list, described, pdo.span);
-    // What is said about a PDO stands at this object where the objects are written in full.
+    // What is said about a PDO is at this object where the objects are written in full.
     object.about = pdo.about.clone();
     if let (Some(flag), Some(cob_id)) = (decl.no_rtr, object.entries.get_mut(1)) {
         cob_id.facts.state(Fact::RemoteFrames, stated(Some(flag.span), decl));

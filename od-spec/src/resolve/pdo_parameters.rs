@@ -118,7 +118,7 @@ impl<'a> Described<'a> {
         Said { name, ..self.said(&layers, pdo.mapping_index(), Some(sub)) }
     }
 
-    /// What several layers say beside the name, the nearest first.
+    /// What several layers say in addition to the name, the nearest first.
     fn said(&self, layers: &[&PdoParameterDecl], index: u16, entry: Option<u8>) -> Said {
         let identifier = layers.iter().find_map(|layer| layer.identifier.as_ref());
         Said {

@@ -21,7 +21,7 @@ use crate::model::{
 use crate::source::{Span, Spanned};
 
 /// Resolves the PDOs of a device and adds their parameter objects. A PDO whose parameter objects are written in full follows from
-/// them; `written` tells where an object is.
+/// them; `written` says where an object is.
 pub(super) fn resolve(
     decl: &PdosDecl,
     info: &DeviceInfo,
@@ -75,7 +75,7 @@ pub(super) fn resolve(
     pdos
 }
 
-/// Reports identifiers of parameter objects and their entries that are none, each pattern once.
+/// Reports identifiers of parameter objects and their entries that are not valid, each pattern once.
 fn check_identifiers(identifiers: impl Iterator<Item = Name>, diagnostics: &mut Diagnostics) {
     for identifier in identifiers.filter(|identifier| !is_identifier(&identifier.value)) {
         if diagnostics.is_new(codes::BAD_NOTATION, identifier.span) {
@@ -212,7 +212,7 @@ fn without_flags(value: Value, text: &Name, diagnostics: &mut Diagnostics) -> Op
         Diagnostic::new(
             rule_codes::BAD_COB_ID,
             text.span,
-            "flag bits 31 and 30 are no part of the identifier",
+            "flag bits 31 and 30 are not part of the identifier",
         )
         .help("write a free identifier without flag bits; `valid:` and `no-rtr:` set these"),
     );

@@ -40,7 +40,7 @@ impl Kind {
         }
     }
 
-    /// The kind that a number behind this word is of.
+    /// The kind that a number after this word is of.
     fn of(word: &str) -> Option<Self> {
         if TABLE.contains(&word) {
             return Some(Self::Table);
@@ -104,7 +104,7 @@ fn words_of(keys: &[&'static str]) -> Vec<&'static str> {
     keys.iter().flat_map(|key| Language::words_of_all(key)).collect()
 }
 
-/// Whether a word stands between the numbers of a list or a run.
+/// Whether a word is between the numbers of a list or a run.
 fn is_joint(word: &str) -> bool {
     AND.contains(&word) || TO.contains(&word)
 }

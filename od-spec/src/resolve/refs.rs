@@ -32,7 +32,7 @@ struct Owners {
     object: String,
     /// Keys of the devices.
     devices: Vec<String>,
-    /// Where it stands.
+    /// Where it is written.
     place: Span,
 }
 
@@ -86,7 +86,7 @@ impl Broken {
         }
     }
 
-    /// An entry that is named at `place`, and is not there; `is_there` tells whether its object is.
+    /// An entry that is named at `place`, and is not there; `is_there` says whether its object is.
     pub(super) fn missing(&self, id: EntryId, is_there: bool, place: Span) -> Diagnostic {
         let help = match self.owners_of(id.index).filter(|_| !is_there) {
             Some(owners) => owners.help(),
@@ -95,7 +95,7 @@ impl Broken {
         Diagnostic::new(codes::UNKNOWN_ENTRY, place, format!("there is no entry {id}")).help(help)
     }
 
-    /// Where an object stands that only some devices have, and what to do when another is to have it.
+    /// Where an object is that only some devices have, and what to do when another is to have it.
     pub(super) fn elsewhere(&self, index: Index) -> Option<(Span, String)> {
         self.owners_of(index).map(|owners| (owners.place, owners.help()))
     }
@@ -127,7 +127,7 @@ impl Broken {
     }
 }
 
-/// The names of objects that a reference may hold: the whole, or what stands before a dot.
+/// The names of objects that a reference may hold: the whole, or what is before a dot.
 fn objects_in(reference: &str) -> impl Iterator<Item = &str> {
     reference.match_indices('.').map(|(dot, _)| &reference[..dot]).chain([reference])
 }
@@ -142,7 +142,7 @@ pub(crate) struct Names<'a> {
     indices: OnceCell<BTreeSet<Index>>,
 }
 
-/// What a name stands for.
+/// What a name means.
 pub(crate) enum Meant<'a> {
     /// Nothing has it.
     Nothing,
@@ -198,7 +198,7 @@ impl<'a> Names<'a> {
         named.map(|(_, object)| *object)
     }
 
-    /// What a name stands for.
+    /// What a name means.
     pub(crate) fn get(&self, name: &str) -> Meant<'a> {
         let whole = self.named(name).map(|object| (object, SubIndex(0)));
         let members = name.match_indices('.').flat_map(|(dot, _)| {
@@ -259,7 +259,7 @@ impl Namesake {
     /// So many are listed in a message.
     pub(super) const LISTED: usize = 4;
 
-    /// How an entry is told apart from all others that a name stands for.
+    /// What distinguishes an entry from all others that a name means.
     pub(super) fn of(name: &str, object: &Object, sub: SubIndex) -> Self {
         let member = object.entry(sub).filter(|_| !object.is_called(name) && object.is_structured());
         let id = EntryId { index: object.index, sub };
@@ -317,7 +317,7 @@ fn find(
         let namesakes: Vec<Namesake> =
             several.iter().map(|(object, sub)| Namesake::of(text, object, *sub)).collect();
         let ways: BTreeSet<&str> = namesakes.iter().map(|one| one.way.as_str()).collect();
-        // Where nothing tells them apart, that is reported at their names.
+        // Where nothing distinguishes them, that is reported at their names.
         if namesakes.iter().any(|one| !lexical::looks_like_index(&one.way)) && ways.len() == namesakes.len() {
             diagnostics.push(ambiguous(text, &namesakes, reference.span));
             return None;
@@ -408,7 +408,7 @@ impl<'a> NamesOf<'a> {
         }
     }
 
-    /// The entry that an index or a name stands for on the first of some devices that has it.
+    /// The entry that an index or a name means on the first of some devices that has it.
     pub(super) fn entry(
         &self,
         on: &Devices,
@@ -424,7 +424,7 @@ impl<'a> NamesOf<'a> {
         by_index.filter(exists).or_else(|| self.find(on, reference, broken, diagnostics))
     }
 
-    /// The entry that a name stands for on the first of some devices that has it.
+    /// The entry that a name means on the first of some devices that has it.
     pub(super) fn find(
         &self,
         on: &Devices,

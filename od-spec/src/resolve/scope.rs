@@ -85,7 +85,7 @@ impl Scope {
     }
 }
 
-/// Reports a name that stands for nothing, once where it stands.
+/// Reports a name that means nothing, once where it is written.
 pub(super) fn unknown<'a>(
     code: &'static Code,
     name: &Name,

@@ -30,7 +30,7 @@ impl Figures<'_, '_> {
             let message = format!("{} switches; a picture has at most {SWITCHES}", decls.len());
             diagnostics.push(
                 Diagnostic::new(codes::TOO_MUCH, beyond.span.part(0, 1), message)
-                    .help("describe several pictures, one behind the other"),
+                    .help("describe several pictures, one after the other"),
             );
             return None;
         }
@@ -94,7 +94,7 @@ fn one_of<'a>(
                     other.span,
                     format!("`{first_key}` and `{second_key}` exclude each other"),
                 )
-                .with(one.span, format!("`{first_key}` stands here"))
+                .with(one.span, format!("`{first_key}` is here"))
                 .help("keep one of the two"),
             );
             None

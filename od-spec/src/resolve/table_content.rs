@@ -82,7 +82,7 @@ impl<'a> Contents<'a> {
             ContentDecl::Pdos { device: Some(name), .. } => self.devices.check(name, diagnostics),
             ContentDecl::Errors(list) | ContentDecl::Reactions(list) => self.errors(list, diagnostics),
             ContentDecl::Rows { columns, rows } => check_rows(columns, rows, diagnostics),
-            // Whoever resolves it says what is wrong with it.
+            // What resolves it reports what is wrong with it.
             ContentDecl::Timing(_)
             | ContentDecl::Hysteresis(_)
             | ContentDecl::Flow(_)

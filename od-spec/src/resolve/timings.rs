@@ -51,7 +51,7 @@ impl Figures<'_, '_> {
             let message = format!("found {found} with {behind}, expected one more level than steps");
             diagnostics.push(
                 Diagnostic::new(rule_codes::COUNT_MISMATCH, *span, message)
-                    .help("write the level before the first step, then that behind each step"),
+                    .help("write the level before the first step, then that after each step"),
             );
             return None;
         }
@@ -94,7 +94,7 @@ impl Figures<'_, '_> {
                         entry.span,
                         "a signal is a bit or the value of an entry",
                     )
-                    .with(other.span, "the bit stands here")
+                    .with(other.span, "the bit is here")
                     .help("keep `type` and `bit`, or `entry`"),
                 );
                 None
@@ -181,7 +181,7 @@ fn is_too_large(decl: &TimingDecl, diagnostics: &mut Diagnostics) -> bool {
     );
     diagnostics.push(
         Diagnostic::new(codes::TOO_MUCH, place.part(0, 1), message)
-            .help("describe several sequences, one behind the other"),
+            .help("describe several sequences, one after the other"),
     );
     true
 }
@@ -196,7 +196,7 @@ fn read_level(text: &Name, carrier: &Carrier<'_>, diagnostics: &mut Diagnostics)
     };
     match carrier {
         Carrier::Bits { field, .. } => {
-            // One bit has no values that a letter could stand for.
+            // One bit has no values that a letter could represent.
             let letter = letter.filter(|_| field.first != field.last);
             letter.or_else(|| {
                 let value = bit_values::value_of(field, text, diagnostics)?;

@@ -124,7 +124,7 @@ fn unique_name<'a>(
             Diagnostic::new(
                 rule_codes::DUPLICATE_NAME,
                 span,
-                format!("the name `{}` stands twice in this type", shorten(name)),
+                format!("the name `{}` is used twice in this type", shorten(name)),
             )
             .label("again here")
             .with(before, "first here")
@@ -210,7 +210,7 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
     }
 }
 
-/// Gives the bits that nobody listed the usage that `rest` names.
+/// Gives the bits that are not listed the usage that `rest` names.
 fn fill(decl: &TypeDecl, owner: &[Option<Span>], fields: &mut Vec<BitField>, diagnostics: &mut Diagnostics) {
     let mut free = Vec::new();
     let mut at = 0;

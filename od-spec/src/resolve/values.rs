@@ -16,7 +16,7 @@ pub(crate) struct Expected<'a> {
     pub data_type: DataType,
     pub named: Option<&'a NamedType>,
     pub unit: Option<&'a Unit>,
-    /// Values that are allowed beside those of an enum.
+    /// Values that are allowed in addition to those of an enum.
     pub special: &'a [SpecialValue],
 }
 
@@ -70,7 +70,7 @@ pub(crate) fn read(
     }
 }
 
-/// `01 A1 05`, with or without blanks.
+/// `01 A1 05`, with or without spaces.
 fn octets(text: &str) -> Option<Vec<u8>> {
     let digits: Vec<u32> =
         text.chars().filter(|c| *c != ' ').map(|c| c.to_digit(16)).collect::<Option<_>>()?;

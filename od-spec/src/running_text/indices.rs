@@ -7,7 +7,7 @@ use crate::model::{EntryId, Index, SubIndex};
 pub struct Written {
     /// Where in the text it begins.
     pub start: usize,
-    /// Where the index ends; a sub-index stands behind it.
+    /// Where the index ends; a sub-index follows it.
     pub index_end: usize,
     /// Where the sub-index ends, or else the index.
     pub end: usize,
@@ -20,11 +20,11 @@ pub fn indices(text: &str) -> impl Iterator<Item = Written> {
     text.match_indices('h').filter_map(|(at, _)| written_before(text, at))
 }
 
-/// The index whose `h` stands at a place.
+/// The index whose `h` is at a place.
 fn written_before(text: &str, at: usize) -> Option<Written> {
     let start = at.checked_sub(4)?;
     let digits = text.get(start..at)?;
-    // As it is printed everywhere, with capital letters: `beach` and `each` end in small ones.
+    // As it is printed everywhere, with upper-case letters: `beach` and `each` end in small ones.
     if !digits.bytes().all(|digit| matches!(digit, b'0'..=b'9' | b'A'..=b'F')) {
         return None;
     }
@@ -38,7 +38,7 @@ fn written_before(text: &str, at: usize) -> Option<Written> {
     Some(Written { start, index_end: at + 1, end: at + 1 + length, id: EntryId { index, sub } })
 }
 
-/// The sub-index behind an index and how long it is with its point: `.5`.
+/// The sub-index after an index and how long it is with its point: `.5`.
 fn sub_index(behind: &str) -> Option<(SubIndex, usize)> {
     let digits = behind.strip_prefix('.')?;
     let length = digits.bytes().take_while(u8::is_ascii_digit).count();

@@ -31,7 +31,7 @@ impl Numbered {
 /// A number in a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mention<'t> {
-    /// Where it stands; the first of a list with its noun.
+    /// Where it is; the first of a list with its noun.
     pub range: Range<usize>,
     /// What is named.
     pub kind: Numbered,
@@ -39,12 +39,12 @@ pub struct Mention<'t> {
     pub number: &'t str,
 }
 
-/// How many numbers a noun has behind it.
+/// How many numbers a noun has after it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Count {
     One,
     Many,
-    /// German does not always tell one from many.
+    /// German does not always distinguish singular and plural.
     Either,
 }
 
@@ -62,7 +62,7 @@ static NOUNS: LazyLock<Vec<(&str, Numbered, Count)>> = LazyLock::new(|| {
     let words = |(key, kind, count)| Language::words_of_all(key).map(move |noun| (noun, kind, count));
     nouns.into_iter().flat_map(words).collect()
 });
-/// What stands before the last number of a list, or between the ends of a run.
+/// What is before the last number of a list, or between the ends of a run.
 static JOINTS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let words = ["and", "or", "to"].into_iter().flat_map(Language::words_of_all);
     let spaced = words.flat_map(|word| [format!(" {word} "), format!(", {word} ")]);
@@ -118,7 +118,8 @@ fn noun_before(text: &str, end: usize) -> Option<(usize, Numbered, Count)> {
     Some((before.len(), kind, count))
 }
 
-/// Whether a number may begin here, as [`number_at`] reads it: most words are none, and need no look at what is before them.
+/// Whether a number may begin here, as [`number_at`] reads it: most words do not begin one, and need no look at what is
+/// before them.
 fn may_be_number(text: &str) -> bool {
     match text.as_bytes() {
         [first, second, ..] => first.is_ascii_digit() || first.is_ascii_uppercase() && *second == b'.',
@@ -152,12 +153,12 @@ fn number_at(text: &str, start: usize, kind: Numbered) -> Option<Range<usize>> {
     (!goes_on && !is_lone_letter).then(|| start..start + length)
 }
 
-/// Whether a letter or digit stands directly behind the first sign.
+/// Whether a letter or digit follows the first sign directly.
 fn is_joined(text: &str) -> bool {
     text.chars().nth(1).is_some_and(char::is_alphanumeric)
 }
 
-/// The next number of a list, behind the last one.
+/// The next number of a list, after the last one.
 fn next_number(text: &str, end: usize, kind: Numbered, count: Count) -> Option<Range<usize>> {
     let behind = &text[end..];
     if let Some(number) = JOINTS.iter().find_map(|joint| {
@@ -178,7 +179,7 @@ fn next_number(text: &str, end: usize, kind: Numbered, count: Count) -> Option<R
 }
 
 /// Whether a number belongs to another document: a standard is named before it in the sentence, or one or another issue is
-/// named directly behind it.
+/// named directly after it.
 fn is_of_another_document(before: &str, behind: &str) -> bool {
     let ends = ["; ", ". ", "! ", "? ", "\n"];
     let sentence =
@@ -193,7 +194,7 @@ fn is_of_another_document(before: &str, behind: &str) -> bool {
     is_standard(word, next) || OTHERS.contains(&&*word.to_lowercase())
 }
 
-/// Whether a word with the one behind it is the name of a standard: `CiA 402`, `DS402`, `IEC 61131`.
+/// Whether a word with the one after it is the name of a standard: `CiA 402`, `DS402`, `IEC 61131`.
 fn is_standard(word: &str, next: &str) -> bool {
     STANDARDS.into_iter().any(|name| match word.strip_prefix(name) {
         Some("") => next.starts_with(|sign: char| sign.is_ascii_digit()),
@@ -202,7 +203,7 @@ fn is_standard(word: &str, next: &str) -> bool {
     })
 }
 
-/// The words of a text, each with the one behind it.
+/// The words of a text, each with the one after it.
 fn words(text: &str) -> impl Iterator<Item = (&str, &str)> {
     let split = |text| str::split(text, |sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty());
     split(text).zip(split(text).skip(1).chain(std::iter::once("")))

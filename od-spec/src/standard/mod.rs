@@ -1,8 +1,8 @@
 //! The shipped libraries, and the standards that they describe, for comparing an object with what CiA 301 says about it: a
 //! device may have written the object in full, without the library.
 //!
-//! For comparing, the texts are read once in a process, and only when something is compared. Places in them mean nothing to whoever
-//! asks: they belong to other sources than the device's.
+//! For comparing, the texts are read once in a process, and only when something is compared. Places in them mean
+//! nothing to a caller that asks: they belong to other sources than the device's.
 
 use std::sync::LazyLock;
 

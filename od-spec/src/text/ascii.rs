@@ -48,9 +48,9 @@ pub fn name_in_ascii(name: &str, otherwise: impl FnOnce() -> String) -> Cow<'_, 
     if has_no_form(name) { Cow::Owned(otherwise()) } else { in_ascii(name) }
 }
 
-/// What a name keeps where nothing but letters and digits counts, and no capital: two names that are equal in it are easily
-/// taken for each other, and an identifier cannot tell them apart. Blanks and signs count between two letters and between two
-/// digits: `word 1` is `word1`, and `1 0` is not `10`.
+/// What a name keeps where nothing but letters and digits counts, in lower case: two names that are equal in it are
+/// easily taken for each other, and an identifier cannot distinguish them. Spaces and signs count between two letters
+/// and between two digits: `word 1` is `word1`, and `1 0` is not `10`.
 pub fn letters(name: &str) -> String {
     let ascii = in_ascii(name);
     let mut letters = String::with_capacity(ascii.len());

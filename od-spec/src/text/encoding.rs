@@ -1,4 +1,4 @@
-//! Which characters the bytes of an EDS stand for. CiA 306 allows ASCII; the world has written everything.
+//! Which characters the bytes of an EDS represent. CiA 306 allows ASCII; the world has written everything.
 
 use std::fmt;
 
@@ -11,11 +11,11 @@ pub enum Encoding {
     Ascii,
     /// UTF-8.
     Utf8,
-    /// UTF-8 behind a byte order mark.
+    /// UTF-8 after a byte order mark.
     Utf8WithMark,
-    /// UTF-16, low byte first, behind a byte order mark.
+    /// UTF-16, low byte first, after a byte order mark.
     Utf16Le,
-    /// UTF-16, high byte first, behind a byte order mark.
+    /// UTF-16, high byte first, after a byte order mark.
     Utf16Be,
     /// UTF-16, low byte first, without a byte order mark.
     Utf16LeUnmarked,
@@ -105,7 +105,7 @@ impl Unread {
 /// Code pages of Western languages. The first of those that fit equally well is taken.
 const WESTERN: [Encoding; 3] = [Encoding::Windows1252, Encoding::Cp850, Encoding::Cp437];
 
-/// The text that bytes stand for, and how they do; [`encode`] gives the same bytes back.
+/// The text that bytes represent, and how; [`encode`] gives the same bytes back.
 ///
 /// What is neither UTF-8 nor UTF-16 is read in the code page that fits best.
 ///
@@ -182,7 +182,7 @@ type IsPair = fn(u8, u8) -> bool;
 
 /// The code page in which two bytes make a character, if the text has words of it: characters side by side.
 fn in_pairs(bytes: &[u8]) -> Option<Unread> {
-    // Each ends where it is none of the code page; a Western text does so soon, or has each pair alone between ASCII.
+    // Each ends where it is not of the code page; a Western text does so soon, or has each pair alone between ASCII.
     let are_words = |is_pair: IsPair| {
         let (mut pairs, mut side_by_side, mut at) = (0_usize, 0_usize, 0);
         let mut before = false;

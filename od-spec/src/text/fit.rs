@@ -66,7 +66,7 @@ impl Around {
             '…' | '•' if !is_letter(self.after) => 2,
             '©' | '®' | '™' | '§' | '¶' | '\u{A0}' if !is_between_letters => 1,
             c if c.is_alphabetic() => self.points_of_letter(c),
-            // A frame of boxes, or a control character, is none of a text.
+            // A frame of boxes, or a control character, is not part of a text.
             '\u{80}'..='\u{9F}' | '\u{2500}'..='\u{259F}' => -3,
             _ => -2,
         }

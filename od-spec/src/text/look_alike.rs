@@ -1,4 +1,4 @@
-//! Characters that cannot be told from others by eye: letters of other scripts inside a Latin word, and those without any width.
+//! Characters that look like others: letters of other scripts inside a Latin word, and those without any width.
 
 /// A character in a text that is not what it looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,7 +35,7 @@ impl Disguised<'_> {
 }
 
 /// The words of a text that hold Latin letters and, of everything else, only look-alikes. A word in one script, a unit such as
-/// `μm`, or a Russian word behind a Latin abbreviation is none of these.
+/// `μm`, or a Russian word after a Latin abbreviation is not one of these.
 pub(crate) fn disguised(text: &str) -> Vec<Disguised<'_>> {
     let is_of_word = |c: char| c.is_alphanumeric() || is_invisible(c);
     let mut found = Vec::new();

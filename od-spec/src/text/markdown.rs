@@ -12,7 +12,7 @@ pub fn escape(text: &str) -> String {
             // `<` begins a tag, `&` an entity, only before a letter or the like.
             '<' => after.is_alphabetic() || matches!(after, '/' | '!' | '?'),
             '&' => after.is_alphanumeric() || after == '#',
-            // Inside a word it is no emphasis.
+            // Inside a word it is not an emphasis.
             '_' => !(before.is_alphanumeric() && after.is_alphanumeric()),
             _ => false,
         };

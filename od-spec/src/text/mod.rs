@@ -1,4 +1,5 @@
-//! Characters of texts: how bytes stand for them, what is ASCII of them, which nobody sees, and which names no file can have.
+//! Characters of texts: how bytes represent them, which are ASCII, which are invisible, and which names no file can
+//! have.
 
 pub mod ascii;
 pub mod encoding;

@@ -1,5 +1,5 @@
-//! Characters that nobody sees: control characters, which command a terminal, and those that change the direction of writing, which
-//! let a text look like another. Where a text from outside is shown, its escapes stand for them.
+//! Invisible characters: control characters, which command a terminal, and those that change the direction of writing,
+//! which let a text look like another. Where a text from outside is shown, escapes replace them.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_nobody_sees_stands_as_its_escape() {
+    fn what_is_invisible_is_shown_as_its_escape() {
         assert_eq!(visible("Größe"), "Größe");
         assert_eq!(
             visible("a\u{1b}]0;x\u{7}\u{9b}\u{202e}\u{7f}\n"),
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn what_turns_text_is_found_wherever_it_stands() {
+    fn what_turns_text_is_found_wherever_it_is() {
         let all: String = (char::MIN..=char::MAX).collect();
         let expected = all.char_indices().filter(|(_, c)| turns_text(*c));
         assert!(turning(&all).eq(expected) && turning(&all).count() == 12);

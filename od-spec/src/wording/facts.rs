@@ -56,7 +56,7 @@ impl Wording {
     pub fn access(self, entry: &Entry) -> String {
         let word = entry.access.word();
         match self.notation {
-            // The mapping column tells the direction, so that rwr and rww need no brackets of their own.
+            // The mapping column shows the direction, so that rwr and rww need no brackets of their own.
             Notation::Manual => match (entry.locked, entry.access) {
                 (true, Access::Wo) => "(w)".to_owned(),
                 (true, Access::Const | Access::Ro | Access::Rw | Access::Rwr | Access::Rww) => {

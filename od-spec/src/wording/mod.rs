@@ -12,30 +12,31 @@
 //! - **Special value.** Its number is written in one way, [`Wording::special`]: as a pattern where the standards print one
 //!   (`FFFFFFFFh`, `65766173h`), that is for a bit field, for more than 16 bits, and for an unsigned value whose highest byte
 //!   is FFh; else in decimal. Signed values stay decimal, as the manuals print them (`-32768`) and CiA 306 demands them:
-//!   `8000h` would not tell its sign. As a value it is `number (name)`, in a list `number: name`.
+//!   `8000h` would not show its sign. As a value it is `number (name)`, in a list `number: name`.
 //! - **Value of an enum.** `number: name` for those who send numbers over the bus, the readers of an EDS and of the manual;
 //!   the name alone for those who write the name: in Rust, in a specification (messages), and in JSON, where the number
-//!   stands beside it. The number is decimal; the manual adds its pattern, `-113 (8Fh)`, where that reads otherwise.
+//!   is next to it. The number is decimal; the manual adds its pattern, `-113 (8Fh)`, where that reads otherwise.
 //! - **Value of a bit field.** The pattern; what is set in it, one field after the other ([`Wording::set_bits`]), follows where a
 //!   person reads single values: the name, or `name = value` for a run of bits.
 //! - **Physical value.** With its unit: `50.0 °C`. The raw value follows in brackets where it is another number and the
-//!   reader has to send it: in an EDS and in the manual, `50.0 °C (500)`. Rust converts, JSON has the raw value beside it,
-//!   and a specification takes either.
+//!   reader has to send it: in an EDS and in the manual, `50.0 °C (500)`. Rust converts, JSON has the raw value next
+//!   to it, and a specification takes either.
 //! - **Range.** `a to b`, `≥ a`, `≤ b`, each end like a value ("at least", "at most" in an EDS, which is ASCII). A limit that
-//!   the data type has anyhow, and those of an enum, are no range: its values are. A message names both ends, always.
+//!   the data type has anyhow, and those of an enum, are not a range: its values are. A message names both ends,
+//!   always.
 //! - **Identifier.** Indices and error codes are names more than numbers: `6040h` and `8611h`, the field's notation, wherever a
 //!   person reads.
 //! - **Node-ID formula.** `180h + node-ID` in the documents, `$NODEID+0x180` elsewhere, as CiA 306 has it.
 //! - **Text.** As it is; `""` for an empty one where a reader would take nothing for "no default". **Bytes**: pairs of digits;
-//!   with blanks for people, without where a tool may copy them.
+//!   with spaces for people, without where a tool may copy them.
 //! - **Access.** The specification's word. A lock is `r(w)` or `(w)` in the manual, `rw locked` in Rust and a sentence in the
 //!   EDS, whose own access says `ro` then.
 //! - **Unit.** One raw step with the symbol, `0.1 °C`; a step of 1 is the symbol alone. Where the raw value 0 is not 0, what it is
 //!   follows: `0.1 °C from -40 °C`.
 //! - **Storage, PDO mapping.** A word in the documents' tables, a phrase elsewhere; see [`storage`](Wording::storage) and
 //!   [`mapping`](Wording::mapping).
-//! - **Facts.** The words for facts themselves (`default`, `special`), which stand in departures from a standard and kinds of
-//!   errata, are [`Wording::fact`].
+//! - **Facts.** The words for facts themselves (`default`, `special`), which are used in departures from a standard and
+//!   kinds of errata, are [`Wording::fact`].
 //!
 //! Numbers and words follow the language in the documents alone; all other places are English.
 //!
@@ -68,16 +69,16 @@ pub use number::Radix;
 pub use range::Limits;
 pub use value::{allowed, format_value};
 
-/// The kind of place that a word stands in, which is the kind of its reader.
+/// The kind of place that a word is in, which is the kind of its reader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Notation {
     /// A comment of an EDS or DCF: read by who integrates the device into a PLC and sends raw numbers. ASCII in the end.
     Eds,
-    /// The reference documents: read at commissioning, beside the printed manual.
+    /// The reference documents: read at commissioning, together with the printed manual.
     Manual,
     /// Documentation of generated code, Rust or C: read by who writes the firmware.
     Rust,
-    /// `text` in the JSON dump, beside the raw value.
+    /// `text` in the JSON dump, next to the raw value.
     Json,
     /// A message about a specification or a setting: read by who writes it.
     Diagnostic,

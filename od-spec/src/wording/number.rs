@@ -13,13 +13,13 @@ pub enum Radix {
 }
 
 impl Radix {
-    /// That of an entry; without an index, what the entry alone tells.
+    /// That of an entry; without an index, what the entry alone shows.
     pub fn of(index: Option<Index>, entry: &Entry) -> Self {
         match entry.named_type.as_ref().map(|named| &named.kind) {
             Some(TypeKind::Bits(_)) => Self::Hexadecimal,
             Some(TypeKind::Enum(_)) => Self::Decimal,
             None => {
-                // Identities, COB-IDs and mapping parameters: nobody knows them in decimal.
+                // Identities, COB-IDs and mapping parameters: they are not used in decimal.
                 let is_code = entry.data_type == DataType::Unsigned32 && entry.unit.is_none();
                 let is_communication = index.is_some_and(Index::is_communication_profile);
                 if is_code && is_communication { Self::Hexadecimal } else { Self::Decimal }
@@ -84,12 +84,12 @@ impl Wording {
         }
     }
 
-    /// A COB-ID entry with its flag bits (CiA 301 7.5.2.35): `80000300h + node-ID`; empty for what is no number.
+    /// A COB-ID entry with its flag bits (CiA 301 7.5.2.35): `80000300h + node-ID`; empty for what is not a number.
     pub fn cob_id_entry(self, cob_id: &Value) -> String {
         self.masked(cob_id, u64::from(u32::MAX))
     }
 
-    /// The CAN-ID of a COB-ID entry, which has up to 29 bits: `300h + node-ID`; empty for what is no number.
+    /// The CAN-ID of a COB-ID entry, which has up to 29 bits: `300h + node-ID`; empty for what is not a number.
     pub fn can_id(self, cob_id: &Value) -> String {
         self.masked(cob_id, 0x1FFF_FFFF)
     }
@@ -124,7 +124,8 @@ impl Wording {
         format!("{} {}", self.decimal(&unit.amount(raw)), unit.symbol)
     }
 
-    /// The same with the raw value behind it, where that is another number and the reader has to send it: `50.0 °C (500)`.
+    /// The same with the raw value after it, where that is another number and the reader has to send it: `50.0 °C
+    /// (500)`.
     pub(super) fn physical_and_raw(self, unit: &Unit, raw: i128) -> String {
         self.with_raw(unit, &self.decimal(&unit.amount(raw)), &raw.to_string())
     }

@@ -6,9 +6,9 @@ use crate::model::{Entry, Index, Real, TypeKind};
 /// The limits of an entry that say something: raw values, `None` where nothing limits that side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Smallest allowed value, beside the special values.
+    /// Smallest allowed value, apart from the special values.
     pub low: Option<i128>,
-    /// Largest allowed value, beside the special values.
+    /// Largest allowed value, apart from the special values.
     pub high: Option<i128>,
 }
 

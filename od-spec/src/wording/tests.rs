@@ -211,7 +211,7 @@ fn facts_have_words_in_every_language() {
         let departure = Departure { part, fact };
         assert_eq!([english, german].map(|wording| wording.departure(departure)), words);
     }
-    // Two facts with one word could not be told apart.
+    // Two facts with one word could not be distinguished.
     for wording in [english, german] {
         let words: BTreeSet<&str> = Fact::ALL.iter().map(|fact| wording.fact(*fact)).collect();
         assert_eq!(words.len(), Fact::ALL.len());
@@ -237,7 +237,7 @@ fn placeholders(text: &str) -> BTreeSet<&str> {
     text.split('{').skip(1).filter_map(|piece| Some(piece.split_once('}')?.0)).collect()
 }
 
-/// What is wrong with the texts of a language, beside those of English and the words of specifications.
+/// What is wrong with the texts of a language, in addition to those of English and the words of specifications.
 fn problems(language: Language) -> Vec<String> {
     // Each language has phrases of its own there.
     let of_all = |line: &&Line| line.section != "search";

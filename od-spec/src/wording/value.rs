@@ -76,7 +76,7 @@ impl Wording {
         format!("{}: {}", self.special_number(entry, special.value), special.name)
     }
 
-    /// An empty text is no value to a tool, and no default to a person.
+    /// An empty text is not a value to a tool, and no default to a person.
     fn text(self, text: &str) -> String {
         match self.notation {
             Notation::Eds | Notation::Manual | Notation::Rust if text.is_empty() => "\"\"".to_owned(),
@@ -100,8 +100,8 @@ pub fn format_value(entry: &Entry, value: &Value) -> String {
     Wording::english(Notation::Diagnostic).value(None, entry, value)
 }
 
-/// The values that an entry allows beside its special ones, as a message shows them: the limits or, where there are none, the
-/// ends of the data type: `0.0 °C to 40.0 °C`.
+/// The values that an entry allows apart from its special ones, as a message shows them: the limits or, where there are
+/// none, the ends of the data type: `0.0 °C to 40.0 °C`.
 pub fn allowed(entry: &Entry) -> String {
     let wording = Wording::english(Notation::Diagnostic);
     let Some((lowest, highest)) = entry.data_type.range() else {

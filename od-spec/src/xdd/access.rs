@@ -1,4 +1,4 @@
-//! Access: by the attribute of an object, or by its parameter; and the direction, which the PDO mapping tells.
+//! Access: by the attribute of an object, or by its parameter; and the direction, which the PDO mapping states.
 
 use super::parameters::Parameter;
 use super::tree::Tree;

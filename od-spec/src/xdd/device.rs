@@ -50,7 +50,7 @@ fn file_info(document: &mut Document<'static>, tree: Tree<'_>) {
     keys.add("ModifiedBy", text("fileModifiedBy"));
     keys.add("ModificationDate", text("fileModificationDate"));
     keys.add("ModificationTime", text("fileModificationTime").map(minutes));
-    // Any text may stand there; two numbers are version and revision.
+    // Any text may be there; two numbers are version and revision.
     if let Some(version) = text("fileVersion") {
         let mut parts = version.value.splitn(2, '.');
         keys.add("FileVersion", parts.next().map(|part| Spanned::new(part, version.span)));

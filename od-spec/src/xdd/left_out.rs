@@ -1,4 +1,4 @@
-//! What an XDD has beside its objects and the model has no place for.
+//! What an XDD has in addition to its objects, for which the model has no place.
 
 use roxmltree::Node;
 
@@ -7,7 +7,7 @@ use super::tree::{Tree, is_named};
 use crate::diag::{Diagnostic, Diagnostics, Repeated, codes};
 use crate::eds::view::View;
 
-/// Says, once for each kind, what nobody reads.
+/// Says, once for each kind, what is not read.
 pub(super) fn say(tree: Tree<'_>, diagnostics: &mut Diagnostics) {
     for (name, what) in [
         ("property", "what other programs keep there"),
@@ -27,7 +27,7 @@ pub(super) fn say(tree: Tree<'_>, diagnostics: &mut Diagnostics) {
         };
         diagnostics.push(
             Diagnostic::new(codes::XDD_LEFT_OUT, tree.place(first), message)
-                .help("keep the file for tools that need it; what is made from it does without"),
+                .help("keep the file for tools that need it; what is made from it does not have it"),
         );
     }
 }

@@ -39,7 +39,7 @@ fn unit<'x>(
         parameter.attribute("offset").filter(|offset| !offset.value.trim_matches(['0', '.']).is_empty())
     {
         let message = format!("the unit of {id} is left out: its raw values count from `{}`", offset.value);
-        let help = "write the unit with what a raw value of 0 stands for into the specification";
+        let help = "write the unit with what a raw value of 0 means into the specification";
         diagnostics.push(Diagnostic::new(codes::XDD_LEFT_OUT, offset.span, message).help(help));
         return None;
     }

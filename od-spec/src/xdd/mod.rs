@@ -59,7 +59,7 @@ pub(crate) fn is_xdc(name: &str) -> bool {
 /// What becomes of objects that CANopenEditor has switched off: its own EDS and code are without them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Disabled {
-    /// They are no objects of the device.
+    /// They are not objects of the device.
     #[default]
     LeftOut,
     /// They are objects like all others.
@@ -75,7 +75,7 @@ pub(crate) struct Translated {
     pub texts: Texts,
 }
 
-/// Translates an XDD or XDC; `None`, with a message, for a text that is none.
+/// Translates an XDD or XDC; `None`, with a message, for a text that is not one.
 #[cfg(feature = "xdd")]
 pub(crate) fn translate(
     file: FileId,

@@ -182,7 +182,7 @@ impl<'a, 'x> Context<'a, 'x> {
         }
     }
 
-    /// What an object is; nothing for one that is no entry of the dictionary, which the reader of objects says.
+    /// What an object is; nothing for one that is not an entry of the dictionary, which the reader of objects says.
     fn kind(&mut self, node: Node<'x, 'x>, id: &str, has_subs: bool) -> Option<ObjectKind> {
         let usual = if has_subs { ObjectKind::Record } else { ObjectKind::Var };
         let text = self.tree.attribute(node, "objectType");

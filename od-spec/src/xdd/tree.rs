@@ -139,7 +139,7 @@ impl<'x> Tree<'x> {
         self.xml.descendants().find(|node| node.is_element() && is_named(*node, name))
     }
 
-    /// Where the name of an element stands.
+    /// Where the name of an element is.
     pub(super) fn place(self, node: Node<'_, '_>) -> Span {
         let start = node.range().start;
         // The name as it is written has its prefix; it ends where a name cannot go on.
@@ -148,7 +148,8 @@ impl<'x> Tree<'x> {
         Span { file: self.file, start: offset(start + 1), end: offset(start + 1 + length) }
     }
 
-    /// An attribute in any capitals, without blanks around it; with the place of its value. An empty one says nothing.
+    /// An attribute in upper or lower case, without spaces around it; with the place of its value. An empty one says
+    /// nothing.
     pub(super) fn attribute(self, node: Node<'x, 'x>, name: &str) -> Option<Spanned<&'x str>> {
         let found = node.attributes().find(|attribute| attribute.name().eq_ignore_ascii_case(name))?;
         let value = found.value().trim();
@@ -157,7 +158,7 @@ impl<'x> Tree<'x> {
         (!value.is_empty()).then_some(Spanned::new(value, span))
     }
 
-    /// The text of an element, without blanks around it; with the place of the text. An empty one says nothing.
+    /// The text of an element, without spaces around it; with the place of the text. An empty one says nothing.
     pub(super) fn text(self, node: Node<'x, 'x>) -> Option<Spanned<&'x str>> {
         let text = node.text().map(str::trim).filter(|text| !text.is_empty())?;
         let range = node.first_child()?.range();

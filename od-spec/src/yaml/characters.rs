@@ -13,7 +13,7 @@ pub(super) fn check(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
     report_disguised_words(id, text, diagnostics);
 }
 
-/// Refuses characters that make the text around them look like another, wherever they stand, in comments, too.
+/// Refuses characters that make the text around them look like another, wherever they are, also in comments.
 fn refuse_turned_text(id: FileId, text: &str, diagnostics: &mut Diagnostics) {
     for (at, c) in turning(text) {
         let span = span_in(id, at..at + c.len_utf8());

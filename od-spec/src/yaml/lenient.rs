@@ -1,9 +1,9 @@
 //! A tree of a text that is not quite YAML, such as one that is being written.
 //!
-//! [`parse`](super::parse) stops at the first mistake, because nobody knows what is meant behind it. An editor asks all the same: what stands
-//! at this place, what could stand there? So here lines and their indentation decide, which somebody who writes keeps right for the
-//! most part: a bracket or quote that is never closed ends where the lines around it go on, and a word without a colon among keys
-//! is a key. Of a text that is right, the tree is that of `parse`.
+//! [`parse`](super::parse) stops at the first mistake, because what follows it is uncertain. An editor still asks: what
+//! is at this place, what could be there? So here lines and their indentation decide, which an author keeps right for
+//! the most part: a bracket or quote that is never closed ends where the lines around it go on, and a word without a
+//! colon among keys is a key. Of a text that is right, the tree is that of `parse`.
 
 mod flow;
 mod scalars;
@@ -74,7 +74,7 @@ impl<'a> Reader<'a> {
         line.is_empty() || is_comment()
     }
 
-    /// Goes on to the next thing that is no blank and no comment, if the line holds nothing more.
+    /// Goes on to the next thing that is not a space or a comment, if the line holds nothing more.
     fn next_line(&mut self) {
         loop {
             self.blanks();
@@ -158,7 +158,7 @@ impl<'a> Reader<'a> {
         node
     }
 
-    /// Whether a key stands here, or a word that is to become one.
+    /// Whether a key is here, or a word that is to become one.
     fn begins_map(&self, column: i32) -> bool {
         if self.key_length().is_some() {
             return true;
@@ -232,11 +232,11 @@ impl<'a> Reader<'a> {
         Spanned::new(text, span)
     }
 
-    /// Goes to the next line behind a value, and at least one character on from where it began.
+    /// Goes to the next line after a value, and at least one character on from where it began.
     fn after_value(&mut self, begin: usize) {
         self.blanks();
         if !self.is_at_end_of_line() && self.line_start(self.at) == self.line_start(begin) {
-            // Something behind a value that is none of it.
+            // Something after a value that is not part of it.
             self.at += self.line().len();
         }
         self.next_line();
@@ -312,7 +312,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Nothing, right behind a key.
+/// Nothing, directly after a key.
 const fn null_behind(key: Span) -> Node {
     Node { span: Span { start: key.end, ..key }, kind: NodeKind::Null }
 }

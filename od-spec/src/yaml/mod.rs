@@ -2,7 +2,7 @@
 //!
 //! This is the only file that names the YAML crate. Scalars stay text here: what a scalar means is
 //! decided by the place that expects it (see [`crate::scalar`]), so that `no`, `1.10` and `0x6040` never
-//! change their meaning behind the author's back.
+//! change their meaning without the author's notice.
 
 mod characters;
 pub(crate) mod gaps;
@@ -28,7 +28,7 @@ const MAX_ALIAS_BYTES: usize = 16 << 20;
 const SMALL: usize = 16;
 const LEAST_ALIAS_BYTES: usize = 1 << 20;
 const ALIAS_BYTES_PER_BYTE: usize = 256;
-/// What a value counts beside its text.
+/// What a value counts in addition to its text.
 const BYTES_PER_VALUE: usize = 64;
 
 /// A value and its place.
@@ -98,7 +98,7 @@ impl Node {
         }
     }
 
-    /// The items of a list, or the one thing that stands there without one.
+    /// The items of a list, or the one thing that is there without one.
     pub fn one_or_more(&self) -> &[Node] {
         match &self.kind {
             NodeKind::List(items) => items,
@@ -299,7 +299,7 @@ impl Builder<'_> {
                     Diagnostic::new(
                         codes::UNKNOWN_ANCHOR,
                         span,
-                        format!("no anchor `&{name}` stands before this alias"),
+                        format!("there is no anchor `&{name}` before this alias"),
                     )
                     .label("nothing to refer to")
                     .help(format!("write `&{name}` before the value that is to be repeated here")),
@@ -311,7 +311,7 @@ impl Builder<'_> {
         true
     }
 
-    /// An escape stands for the character; the character itself is reported already.
+    /// An escape means the character; the character itself is reported already.
     fn refuse_escape_that_turns(&mut self, kind: &NodeKind, span: Span) {
         if let NodeKind::Scalar { text, plain: false } = kind
             && let Some((_, c)) = turning(text).next()
@@ -326,7 +326,7 @@ impl Builder<'_> {
         let span = self.point(at);
         let diagnostic = Diagnostic::new(codes::YAML_SYNTAX, span, format!("this is not YAML: {message}"));
         let help = if self.text[..span.start as usize].ends_with('\t') {
-            "indent with blanks; YAML does not allow tabs"
+            "indent with spaces; YAML does not allow tabs"
         } else {
             "check indentation, quotes, and that `: ` and ` #` inside a text are quoted"
         };
@@ -367,7 +367,7 @@ impl Builder<'_> {
         });
     }
 
-    /// The tag that stands before a value, perhaps with an anchor between them; else the value.
+    /// The tag that is before a value, perhaps with an anchor between them; else the value.
     fn tag_before(&self, value: Span) -> Span {
         let mut before = self.text.get(..value.start as usize).unwrap_or_default().trim_end();
         for _ in 0..2 {
@@ -428,10 +428,10 @@ impl Builder<'_> {
         false
     }
 
-    /// Hands a complete node to the collection it stands in; `false` stops the reading.
+    /// Hands a complete node to the collection it is in; `false` stops the reading.
     fn add(&mut self, node: Node, anchor: usize) -> bool {
         if anchor != 0 {
-            // What has an anchor is kept for its aliases, and an anchor may stand in another one.
+            // What has an anchor is kept for its aliases, and an anchor may be in another one.
             self.alias_bytes += node.weight();
             if self.alias_bytes > self.most_alias_bytes {
                 return self.too_much(node.span);
@@ -465,7 +465,7 @@ impl Builder<'_> {
                 (start, anchor, NodeKind::Map(entries), last)
             }
         };
-        // A block collection's end event stands at the next token; its last child tells where it really ends.
+        // A block collection's end event is at the next token; its last child shows where it really ends.
         let span = if end.end > end.start { start.to(end) } else { start.to(last.unwrap_or(start)) };
         self.add(Node { span, kind }, anchor)
     }
@@ -518,7 +518,7 @@ fn read_key(node: Node, entries: &[(Spanned<String>, Node)], diagnostics: &mut D
             Diagnostic::new(codes::BAD_KEY, span, "merge keys (`<<`) are not part of the language")
                 .help("name a type or take an object with `from:` instead"),
         );
-        // The key stays, so that nobody misses what it would have brought.
+        // The key stays, so that what it would have brought is not reported as missing.
         return Key::Read(Spanned::new(text, span));
     }
     let key = Spanned::new(text, span);
@@ -531,7 +531,7 @@ fn read_key(node: Node, entries: &[(Spanned<String>, Node)], diagnostics: &mut D
     Key::Read(key)
 }
 
-/// Takes keys that stood before out of a large map, which nearly no map is.
+/// Takes keys that were there before out of a large map, which nearly no map is.
 fn refuse_equal_keys(entries: &mut Vec<(Spanned<String>, Node)>, diagnostics: &mut Diagnostics) {
     let mut order: Vec<usize> = (0..entries.len()).collect();
     // Of equal keys, the first in the text stays the first.
@@ -554,7 +554,7 @@ fn refuse_equal_keys(entries: &mut Vec<(Spanned<String>, Node)>, diagnostics: &m
 
 /// A key has been there before.
 pub(crate) fn stands_twice(again: &Spanned<String>, first: Span) -> Diagnostic {
-    let message = format!("key `{}` stands twice in this map", shorten(&again.value));
+    let message = format!("key `{}` is written twice in this map", shorten(&again.value));
     Diagnostic::new(codes::DUPLICATE_KEY, again.span, message)
         .label("again here")
         .with(first, "first here")

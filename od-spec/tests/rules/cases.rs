@@ -177,7 +177,7 @@ fn odd_parameter_objects_are_refused_one_by_one() {
     assert_eq!(said(&[communication, text]), ["OD0508", "OD0320"]);
     let text = "\n  0x1800: {name: PDO, record: {1: {name: COB-ID, type: visible-string, access: rw, default: no}, 2: {name: kind, type: unsigned8, access: rw}}}";
     assert_eq!(said(&[text, mapping]), ["OD0320"]);
-    // What stands behind an entry without a value is judged, too.
+    // What follows an entry without a value is judged, too.
     let second = "\n  0x1A00: {name: map, sub0: {access: rw, default: 2}, record: {1: {name: mapped, type: unsigned32, access: rw}, 2: {name: mapped 2, type: unsigned32, access: rw, default: 0x20000010}}}";
     assert_eq!(said(&[communication, second]), ["OD0502"]);
     let empty = "\n  0x1A00: {name: map, sub0: {access: rw}, record: {}}";
@@ -186,7 +186,7 @@ fn odd_parameter_objects_are_refused_one_by_one() {
 
 const LEVEL: &str = "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\n";
 
-/// A maker reserves no identifier that whoever configures the network has not given; who sets one has.
+/// A maker reserves no identifier that the network's configuration has not given; a setting has.
 #[test]
 fn an_identifier_is_expected_of_a_device_not_of_a_node() {
     let tpdo =

@@ -3,7 +3,7 @@
 use crate::{codes, rules, said_of_example};
 
 #[test]
-fn the_example_of_a_rule_is_refused_by_it_and_accepted_when_put_right() {
+fn the_example_of_a_rule_is_refused_by_it_and_accepted_when_fixed() {
     for rule in rules() {
         let id = rule.id;
         let example = rule.example.unwrap_or_else(|| panic!("{id} has no example"));

@@ -11,7 +11,7 @@ use od_spec::{NoFiles, Strictness, compile_as};
 
 use crate::{rules, said_of_example};
 
-/// Keys of the language. As a word alone, most are words of any language; a key is told by its colon.
+/// Keys of the language. As a word alone, most are words of any language; a key is recognized by its colon.
 const CHAPTERS: [&Keys; 30] = [
     &keys::ALLOWED,
     &keys::CONSTRAINT,
@@ -48,7 +48,7 @@ const CHAPTERS: [&Keys; 30] = [
 /// Words that mean something in a specification alone.
 const WORDS: [&str; 6] = ["special", "variable", "fixed", "rw locked", "locked", "stored"];
 
-/// Keys of the sections of objects; those of `[DeviceInfo]` and its like stand in every file.
+/// Keys of the sections of objects; those of `[DeviceInfo]` and its like are in every file.
 const OBJECT_KEYS: [&str; 10] = [
     "ParameterName",
     "ObjectType",
@@ -187,7 +187,7 @@ fn pdo_with_times(index: u16, transmission: &str) -> String {
     structured(index, 9, ("const", "DefaultValue=5"), &subs)
 }
 
-/// The communication parameters of a PDO that begins with SYNC 3, beside other objects.
+/// The communication parameters of a PDO that begins with SYNC 3, next to other objects.
 fn pdo_with_sync_start(index: u16, transmission: &str, others: &str) -> String {
     let transmission = format!("DefaultValue={transmission}");
     let subs = [
@@ -500,10 +500,10 @@ const OUT_OF_REACH: [(&str, &str); 22] = [
     ("OD0879", "its PDOs are described in full"),
     ("OD0881", "it has no views of other entries"),
     ("OD0882", "its comments give a unit to numbers alone"),
-    ("OD0883", "its comments tell no base of a symbol"),
+    ("OD0883", "its comments state no base of a symbol"),
     ("OD0885", "it does not say which objects are of a profile"),
     ("OD0890", "it may be that of one device, which has a serial number"),
-    ("OD0898", "tools tell its objects apart by their indices"),
+    ("OD0898", "tools distinguish its objects by their indices"),
 ];
 
 #[test]

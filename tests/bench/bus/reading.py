@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measure how long it takes to read the parameters of nodes, beside python-canopen and a bare socket.
+"""Measure how long it takes to read the parameters of nodes, compared with python-canopen and a bare socket.
 
     reading.py [--odgen FILE] [--python FILE] [--runs 5] [--page FILE]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measure how long it takes to read, check, convert and import an EDS, beside what others read it with.
+"""Measure how long it takes to read, check, convert and import an EDS, compared with other readers.
 
     reading.py [--sizes 150 1500 10000] [--wide 10000 60000] [--passes 3] [--rounds 7] [--budget 2] [--cache target/bench]
                [--program FILE] [--python FILE]
@@ -29,7 +29,7 @@ import synthetic  # noqa: E402
 import wide  # noqa: E402
 from run import EXE, ROOT, Failed, output  # noqa: E402
 
-# A reader of lines beside the readers of others; the steps that take far longer have rounds of their own.
+# A reader of lines compared with the readers of others; the steps that take far longer have rounds of their own.
 SLOW = ["model", "check", "convert", "import"]
 OWN = ["parse", *SLOW]
 RUST = ["rust-ini", "canopen-host", "canopen_rust"]
@@ -167,7 +167,7 @@ def report(files: list[File], missing: list[str]) -> str:
     lines += table(["file", "MB", "entries", *steps], (
         [file.name, f"{file.bytes / 1e6:.2f}", f"{file.entries:,}", *(times(file, step) for step in steps)] for file in files
     ))
-    lines += ["", "How many times the minimum of `parse`, and behind the bar of `model`, the readers of others take:", ""]
+    lines += ["", "How many times the minimum of `parse`, and after the bar of `model`, the readers of others take:", ""]
     others = [*RUST, PYTHON]
     lines += table(["file", *others], ([file.name, *(ratios(file, step) for step in others)] for file in files))
     lines += ["", "Peak memory of a process that does one step, in MB, and as a multiple of the file:", ""]

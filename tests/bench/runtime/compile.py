@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measure what generated dictionaries cost to compile: ours beside those of two other projects.
+"""Measure what generated dictionaries cost to compile: ours compared with those of two other projects.
 
     compile.py [--sizes 150 2000] [--contenders ours zencan canopen-rs] [--limit 300]
     compile.py --generators
@@ -41,7 +41,7 @@ GENERATORS = {
     "canopen-host 0.6.1": 'canopen-host = "=0.6.1"',
 }
 MISSING = {("canopen-rs", 10000): "left out: hours"}
-# What the wrapper is told by the script, which is itself.
+# What the script passes to the wrapper, which is the script itself.
 CRATE, LIMIT, RESULT = "BENCH_COMPILE_CRATE", "BENCH_COMPILE_LIMIT", "BENCH_COMPILE_RESULT"
 
 
@@ -161,12 +161,12 @@ def built(command: list[str], name: str, size: int, limit: float) -> tuple[float
 
 
 def as_rustc(command: list[str]) -> int:
-    """Stands in for rustc: runs it, and notes what it used if it compiles the crate in question."""
+    """Replaces rustc: runs it, and notes what it used if it compiles the crate in question."""
     crate = command[command.index("--crate-name") + 1] if "--crate-name" in command else ""
     if crate != os.environ[CRATE]:
         os.execvp(command[0], command)
     limit = float(os.environ[LIMIT])
-    process = subprocess.Popen(command, close_fds=False)  # the job server of cargo is behind one of them
+    process = subprocess.Popen(command, close_fds=False)  # the job server of cargo is one of them
     stop = threading.Timer(limit, process.kill)
     stop.start()
     start = os.times().elapsed

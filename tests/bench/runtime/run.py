@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Measure generated dictionaries at run time: ours beside those of two other projects.
+"""Measure generated dictionaries at run time: ours compared with those of two other projects.
 
     run.py [--models pmc pmm 150 gappy150 2000 gappy2000] [--contenders ours zencan canopen-rs] [--canopen-rs-2000] [--quick]
 
-Prints Markdown; what cargo and criterion print goes to standard error. `scaled.py` tells what the
+Prints Markdown; what cargo and criterion print goes to standard error. `scaled.py` shows what the
 models are. 10,000 objects (`10000`, `gappy10000`) have to be asked for: zencan needs about five minutes
 and 8 GB to compile them, and `gappy10000` is ours alone, because zencan has objects of its own at 5500h.
 canopen-rs is measured with 150 only unless `--canopen-rs-2000` says that waiting for it is all right
-(`Cargo.toml` tells why). The exit code is 1 when something could not be built or run; nothing is judged.
+(`Cargo.toml` says why). The exit code is 1 when something could not be built or run; nothing is judged.
 """
 
 from __future__ import annotations

@@ -54,7 +54,7 @@ STRING = Type("visible-string", f"VisibleString({STRING_CAPACITY})", 0x0009, STR
 
 @dataclass(frozen=True)
 class Entry:
-    """What stands behind an index and a sub-index."""
+    """What follows an index and a sub-index."""
 
     name: str
     type: Type
@@ -65,7 +65,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Object:
-    """An object. A VAR has one entry, an ARRAY one that stands for all its elements."""
+    """An object. A VAR has one entry, an ARRAY one that represents all its elements."""
 
     index: int
     name: str

@@ -4,7 +4,7 @@
 #define OD_DEFINITION
 #include "301/CO_ODinterface.h"
 
-/* Moves the part of a value that one call is about; tells whether more is to come. */
+/* Moves the part of a value that one call is about; returns whether more is to come. */
 static ODR_t next_part(OD_stream_t *stream, OD_size_t room, OD_size_t *at, OD_size_t *length) {
     const OD_size_t rest = stream->dataLength - stream->dataOffset;
     *at = stream->dataOffset;

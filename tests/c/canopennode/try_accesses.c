@@ -1,5 +1,5 @@
 /* Tries a generated dictionary with the cases of a file (see tests/shared/cases.rs), as the stack's SDO server goes about it, and prints what each
- * gave, a line for a case: the abort code, and the bytes that are read then, if any; `changed` where a refused write left something behind. */
+ * gave, a line for a case: the abort code, and the bytes that are read then, if any; `changed` where a refused write changed something. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

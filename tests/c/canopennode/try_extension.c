@@ -1,4 +1,4 @@
-/* The extension beside the stack, as an application meets it: the dictionary is that of tests/tests/canopennode/extension.rs. */
+/* The extension next to the stack, as an application meets it: the dictionary is that of tests/tests/canopennode/extension.rs. */
 #include <stdio.h>
 #include <string.h>
 
@@ -113,7 +113,7 @@ int main(void) {
     EXPECT(set_u16(0x2000U, 0U, 65535U), ODR_OK);
     EXPECT(set_u16(0x2000U, 0U, 1000U), ODR_OK);
 
-    /* Lengths, also where nobody else looks at them. */
+    /* Lengths, also where nothing else looks at them. */
     EXPECT(set(0x2000U, 0U, &byte, 1U), ODR_DATA_SHORT);
     EXPECT(set(0x2000U, 0U, &word, 4U), ODR_DATA_LONG);
 
@@ -136,7 +136,7 @@ int main(void) {
     EXPECT(io.write(&io.stream, "a\0", 2U, &done), ODR_PARTIAL);
     EXPECT(io.write(&io.stream, "cdefgh", 6U, &done), ODR_INVALID_VALUE);
 
-    /* Elements of an array, of which each has the rule, and one behind them that has none. */
+    /* Elements of an array, of which each has the rule, and one after them that has none. */
     EXPECT(set_u16(0x2004U, 3U, 8U), ODR_VALUE_HIGH);
     EXPECT(set_u16(0x2004U, 3U, 7U), ODR_OK);
     EXPECT(OD_RAM.x2004_list[2], 7);
@@ -168,7 +168,7 @@ int main(void) {
     EXPECT(set(0x2007U, 0U, &word, 4U), ODR_VALUE_HIGH);
     EXPECT(OD_RAM.x2007_wide, 12000);
 
-    /* Nothing lies behind a DOMAIN until the application has something there. */
+    /* A DOMAIN has no data until the application has something there. */
     EXPECT(set(0x2009U, 0U, "abc", 3U), ODR_UNSUPP_ACCESS);
     EXPECT(OD_extendBehind(OD_ENTRY_H2009, &own_domain), ODR_OK);
     EXPECT(OD_getSub(OD_find(OD, 0x2009U), 0U, &io, false), ODR_OK);

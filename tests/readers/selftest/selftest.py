@@ -128,7 +128,7 @@ FAULTS = (
     Fault("configured real", DCF, put("2002sub9", "ParameterValue", "0.25"), (LELY, UTILS, NODE)),
     Fault("configured octets", DCF, put("2002subA", "ParameterValue", "0A0C"), (UTILS, NODE)),
     Fault("configured text", DCF, put("2002subB", "ParameterValue", "Set there"), (UTILS, NODE)),
-    Fault("value that nobody configured", DCF, put("2000", "ParameterValue", "7"), (UTILS, NODE)),
+    Fault("value that was not configured", DCF, put("2000", "ParameterValue", "7"), (UTILS, NODE)),
     Fault("default in the DCF", DCF, put("2000", "DefaultValue", "-6")),
 )
 

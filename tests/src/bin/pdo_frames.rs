@@ -1,8 +1,8 @@
 //! PDOs of a generated dictionary with any values, for tools that read frames by a description: `pdo-frames fullmo|pmc|pmm`.
 //!
-//! Each entry that can be mapped stands in some mapping. A line of standard output is a frame: the direction, the mapping, the
-//! data, and the bytes that the dictionary has for each entry – those that were packed, or those that it kept of what it
-//! received – as `transmit 60410010,60640020 27120000E803 2712,0000E803`, all in hexadecimal.
+//! Each entry that can be mapped is in some mapping. A line of standard output is a frame: the direction, the mapping,
+//! the data, and the bytes that the dictionary has for each entry – those that were packed, or those that it kept of
+//! what it received – as `transmit 60410010,60640020 27120000E803 2712,0000E803`, all in hexadecimal.
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command talks to its user")]
 

@@ -84,7 +84,7 @@ impl Command {
     }
 }
 
-/// Sends and hears until the transfer is over. Time goes on while nobody says anything.
+/// Sends and hears until the transfer is over. Time goes on while nothing is sent.
 fn exchange(
     channel: Channel,
     lines: &mut Lines<StdinLock<'_>>,

@@ -1,4 +1,4 @@
-//! A generated dictionary behind an SDO server, for clients that others wrote: `sdo-server fullmo|pmc|pmm NODE`.
+//! A generated dictionary with an SDO server, for clients that others wrote: `sdo-server fullmo|pmc|pmm NODE`.
 //!
 //! Every line of standard input is one request of eight bytes in hexadecimal; for each, standard output has the frames that it is
 //! answered with, one a line, and an empty line.

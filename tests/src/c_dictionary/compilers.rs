@@ -31,7 +31,7 @@ impl Compiler {
         }
     }
 
-    /// Compiles all files of a device below a directory into object files beside them, which it gives.
+    /// Compiles all files of a device below a directory into object files next to them, which it returns.
     ///
     /// # Errors
     /// The compiler does not run, or has something to say.
@@ -72,7 +72,7 @@ impl Compiler {
         run(command.args(&self.platform).args(objects).arg("-o").arg(program))
     }
 
-    /// What arguments tell the program of [`answer.c`](../../c/answer.c) about a device.
+    /// The arguments that describe a device to the program of [`answer.c`](../../c/answer.c).
     pub fn about(device: &str) -> [String; 3] {
         let upper = device.to_uppercase();
         [

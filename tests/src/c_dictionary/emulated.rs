@@ -23,7 +23,7 @@ const BOARD: [&str; 9] = [
 /// How long it may take.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Compiles firmware that asks the dictionary of a device whose C lies below a directory, and runs it; what it tells.
+/// Compiles firmware that asks the dictionary of a device whose C lies below a directory, and runs it; what it prints.
 ///
 /// # Errors
 /// A tool does not run, or has something to say; an answer is another one; or the firmware does not end.

@@ -1,4 +1,5 @@
-//! Compares a file with copies of itself in which one key has another value: the difference is told, of its weight, and no other.
+//! Compares a file with copies of itself in which one key has another value: the difference is reported, of its weight,
+//! and no other.
 
 use od_diff::{Change, Class, Question, Scope, compare};
 use od_spec::model::{Fact, Index, System};
@@ -8,16 +9,16 @@ use od_spec::{NoFiles, compile};
 /// Most sections of a file in which a key is changed.
 const MOST_SECTIONS: usize = 8;
 
-/// A line with the key of an entry that stands by itself: a VAR, or what is under a sub-index other than 0.
+/// A line with the key of an entry that is by itself: a VAR, or what is under a sub-index other than 0.
 struct KeyLine<'t> {
     index: Index,
     key: &'t str,
     value: &'t str,
-    /// Where the value stands in the text.
+    /// Where the value is in the text.
     at: usize,
 }
 
-/// Another value for a key, and what has to be told of it.
+/// Another value for a key, and what has to be reported about it.
 struct Edit {
     value: String,
     fact: Fact,
@@ -25,7 +26,7 @@ struct Edit {
     class: Class,
 }
 
-/// What is told wrongly, a line each.
+/// What is reported wrongly, a line each.
 pub(super) fn run(name: &str, text: &str) -> Result<Vec<String>, String> {
     let original = system(name, text)?;
     let mut problems = Vec::new();
@@ -43,7 +44,7 @@ pub(super) fn run(name: &str, text: &str) -> Result<Vec<String>, String> {
         };
         if !found.iter().any(is_told) {
             let others: Vec<String> = found.iter().map(told).collect();
-            problems.push(format!("{what} is not told, but: {}", others.join("; ")));
+            problems.push(format!("{what} is not reported, but: {}", others.join("; ")));
         }
         // A PDO that maps the entry changes with it.
         let is_elsewhere = |change: &&Change| {
@@ -51,7 +52,7 @@ pub(super) fn run(name: &str, text: &str) -> Result<Vec<String>, String> {
             index.is_some_and(|index| index != line.index && !(0x1400..0x1C00).contains(&index.0))
         };
         if let Some(change) = found.iter().find(is_elsewhere) {
-            problems.push(format!("{what} tells of another object: {}", told(change)));
+            problems.push(format!("{what} reports another object: {}", told(change)));
         }
     }
     Ok(problems)
@@ -93,7 +94,7 @@ fn edits(text: &str) -> Vec<(KeyLine<'_>, Edit)> {
     edits
 }
 
-/// The sections of entries that other rules do not know by their index, each with its lines and where they stand.
+/// The sections of entries that other rules do not know by their index, each with its lines and where they are.
 fn sections(text: &str) -> Vec<(Index, Vec<(usize, &str)>)> {
     let mut sections: Vec<(&str, Vec<(usize, &str)>)> = Vec::new();
     let mut at = 0;
@@ -114,7 +115,7 @@ fn sections(text: &str) -> Vec<(Index, Vec<(usize, &str)>)> {
     let is_single = |name: &str| {
         names.iter().filter(|one| one.trim_start_matches("0x").eq_ignore_ascii_case(name)).count() == 1
     };
-    // What stands at an object with sub-indices, its sub-indices say.
+    // What is at an object with sub-indices, its sub-indices say.
     let has_subs =
         |name: &str| names.iter().any(|one| one.starts_with(&format!("{}sub", name.to_ascii_lowercase())));
     let of_entry = |(name, lines): (&str, _)| {
@@ -134,7 +135,7 @@ fn entry_of(name: &str) -> Option<Index> {
     ((rest.is_empty() || is_element) && !has_rules).then_some(index)
 }
 
-/// The keys of a section, as far as each stands there once, and the section is no array or record.
+/// The keys of a section, as far as each is there once, and the section is not an array or record.
 fn key_lines<'t>(index: Index, lines: Vec<(usize, &'t str)>) -> Vec<KeyLine<'t>> {
     let keys: Vec<KeyLine<'t>> = lines
         .into_iter()
@@ -153,14 +154,14 @@ fn key_lines<'t>(index: Index, lines: Vec<(usize, &'t str)>) -> Vec<KeyLine<'t>>
         return Vec::new();
     }
     let is_number = matches!(value("DataType"), Some(Some(2..=7)));
-    // A key that stands twice, once with a character too many, is one key.
+    // A key that is written twice, once with a character too many, is one key.
     let count = |key: &str| keys.iter().filter(|one| letters(one.key) == letters(key)).count();
     let single: Vec<bool> = keys.iter().map(|one| count(one.key) == 1).collect();
     let lines = keys.into_iter().zip(single).filter_map(|(line, is_single)| is_single.then_some(line));
     lines.filter(|line| is_number || !line.key.eq_ignore_ascii_case("DefaultValue")).collect()
 }
 
-/// The letters and digits of a key, without capitals.
+/// The letters and digits of a key, in lower case.
 fn letters(key: &str) -> String {
     key.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect()
 }

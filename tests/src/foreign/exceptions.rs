@@ -14,7 +14,7 @@ const OTHER_THAN_FILLED_IN: &str =
 /// The longest default.
 const LONGEST_DEFAULT: usize = 242;
 
-/// Takes away what is as it should be after an import that says what it has changed, and tells of the rest.
+/// Takes away what is as it should be after an import that says what it has changed, and reports the rest.
 pub(super) fn except(repairs: &[Repair], before: &Dictionary, found: Vec<Difference>, checked: &mut Checked) {
     for difference in found {
         let Some(reason) = imported(&difference, before, repairs) else {
@@ -121,7 +121,7 @@ mod tests {
     use crate::foreign::differences;
     use crate::foreign::tests::device;
 
-    /// What is told of two files, as far as it is no exception.
+    /// What is reported about two files, as far as it is not an exception.
     fn told(repairs: &[Repair], before: &str, after: &str) -> Vec<String> {
         let (before, after) = (device(before), device(after));
         let mut checked = Checked::default();

@@ -251,7 +251,7 @@ AccessType=ro
 PDOMapping=0
 ";
 
-    /// What is told when a part of the file is another.
+    /// What is reported when a part of the file is another.
     fn told(part: &str, other: &str) -> Vec<String> {
         assert!(LAMP.contains(part), "{part}");
         let (before, after) = (device(LAMP), device(&LAMP.replacen(part, other, 1)));

@@ -1,4 +1,5 @@
-//! Takes an EDS, DCF, XDD or XDC that others wrote through everything that the project does with one, and tells what went wrong.
+//! Takes an EDS, DCF, XDD or XDC that others wrote through everything that the project does with one, and reports what
+//! went wrong.
 
 mod comparing;
 mod exceptions;

@@ -220,7 +220,7 @@ mod tests {
         assert_eq!(other_line("a: 1\n  b: 2\n", "a: 1\n"), Some("first `b: 2`, then `nothing`".to_owned()));
     }
 
-    /// Each step tells what it cannot do.
+    /// Each step reports what it cannot do.
     #[test]
     fn what_cannot_be_read_is_a_problem() {
         let large = vec![b' '; (64 << 20) + 1];

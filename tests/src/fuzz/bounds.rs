@@ -15,7 +15,8 @@ pub struct Used {
     pub total: u64,
 }
 
-/// Runs a step and says what it used. Who links an allocator that counts can have one; without it, nothing is used.
+/// Runs a step and says what it used. A program that links an allocator that counts can have one; without it, nothing
+/// is used.
 pub type Meter = fn(&mut dyn FnMut()) -> Used;
 
 /// The bounds of a step.
@@ -33,7 +34,7 @@ pub(super) struct Bound {
     base: u64,
     /// For each byte more.
     per_byte: u64,
-    /// For each object or entry that the text describes. A line of a specification may stand for many: a run, or an
+    /// For each object or entry that the text describes. A line of a specification may represent many: a run, or an
     /// object that each of its devices has.
     per_described: u64,
 }
@@ -47,7 +48,7 @@ pub(super) struct Size {
 }
 
 impl Size {
-    /// A text that cannot describe more than stands in it.
+    /// A text that cannot describe more than is in it.
     pub(super) const fn bytes(bytes: usize) -> Self {
         Self { bytes, described: 0 }
     }
@@ -107,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_above_a_bound_is_told() {
+    fn what_is_above_a_bound_is_reported() {
         let bounds = Bounds { step: "model", peak: Bound::new(100, 2), total: Bound::new(100, 9) };
         let said = |peak, total| bounds.complaint(Size::bytes(50), Used { peak, total }).map(|one| one.what);
         assert_eq!(said(200, 550), None);
@@ -130,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_is_told() {
+    fn a_panic_is_reported() {
         let bounds = Bounds { step: "model", peak: Bound::new(0, 0), total: Bound::new(0, 0) };
         let meter: Meter = |step| {
             step();

@@ -74,7 +74,7 @@ fn formats(name: &str, bytes: &[u8]) -> Vec<Complaint> {
     wrong.map(|(format, what)| Complaint { step: format!("format {format}"), what }).collect()
 }
 
-/// A file that is larger in full is only read and put right: five imports of one take a minute on a busy machine.
+/// A file that is larger in full is only read and fixed: five imports of one take a minute on a busy machine.
 const LARGEST: usize = 1_000_000;
 /// The step that makes a specification.
 const TURN: &str = "turn";
@@ -124,7 +124,7 @@ const STEPS: [(Bounds, Step); 5] = [
     ),
     // At most 61: two texts, and what was found in each. In all: as many rounds as changes wait for others.
     (
-        Bounds { step: "put right", peak: Bound::new(150_000, 96), total: Bound::new(20_000_000, 1500) },
+        Bounds { step: "fix", peak: Bound::new(150_000, 96), total: Bound::new(20_000_000, 1500) },
         |name, bytes| {
             drop(fix(name, bytes));
         },

@@ -12,7 +12,7 @@ use super::{Complaint, Random, Seed, Subject, mutant, shrink};
 pub struct Hunt<'a> {
     /// The texts to begin with.
     pub seeds: &'a [Seed],
-    /// The number of the first mutant; the next have the numbers behind it.
+    /// The number of the first mutant; the next have the numbers after it.
     pub first: u64,
     /// No mutant is begun after this time.
     pub time: Duration,
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mutant_that_takes_too_long_is_told() {
+    fn a_mutant_that_takes_too_long_is_reported() {
         let seeds = seed("[stuck]\n");
         let told = Mutex::new(BTreeSet::new());
         let hunted = Hunt { mutants: 20, patience: Duration::from_millis(50), ..plan(&seeds) };

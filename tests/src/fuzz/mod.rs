@@ -43,7 +43,7 @@ impl Complaint {
     /// What is left of a complaint without the names and numbers of the text: two of a kind have it in common.
     pub fn kind(&self) -> String {
         let mut words = String::new();
-        // What stands between quotes is of the text.
+        // What is between quotes is of the text.
         for part in self.what.split(['`', '"']).step_by(2) {
             let is_plain = |word: &&str| !word.contains(|c: char| c.is_ascii_digit());
             words.extend(part.split_whitespace().filter(is_plain).take(12).map(|word| format!(" {word}")));

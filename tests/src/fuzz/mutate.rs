@@ -93,7 +93,7 @@ pub fn mutant(seeds: &[Seed], notation: &Notation, random: &mut Random) -> Optio
     Some(Seed { name: seed.name.clone(), bytes })
 }
 
-/// Of a long text the beginning, where the facts of the file as a whole stand, and some sections in their order.
+/// Of a long text the beginning, where the facts of the file as a whole are, and some sections in their order.
 fn part<'n>(whole: Page<'n>, random: &mut Random) -> Page<'n> {
     let limit = LONGEST_PART / 4 + random.below(LONGEST_PART);
     if whole.size() <= limit {
@@ -135,7 +135,7 @@ impl<'n> Page<'n> {
         self.lines.iter().map(String::len).sum()
     }
 
-    /// The sections; what stands before the first is a section too.
+    /// The sections; what is before the first is a section too.
     fn sections(&self) -> Vec<Range<usize>> {
         let is_start = |(at, line): &(usize, &String)| *at == 0 || self.notation.is_header(line);
         let starts: Vec<usize> = self.lines.iter().enumerate().filter(is_start).map(|(at, _)| at).collect();

@@ -66,7 +66,7 @@ impl Subject for TemplateFiles {
     }
 }
 
-/// A mistake is told in words, with a place in the template.
+/// A mistake is reported in words, with a place in the template.
 fn complaint(error: &TemplateError) -> Option<String> {
     let TemplateError { template, source, range, message } = error;
     let has_place = source.get(range.clone()).is_some();

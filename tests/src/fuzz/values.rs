@@ -1,4 +1,4 @@
-//! Changes of what stands in a line: keys, values, numbers, and the places that headers name.
+//! Changes of what is in a line: keys, values, numbers, and the places that headers name.
 
 use std::ops::Range;
 
@@ -64,7 +64,7 @@ pub(super) fn replace_word(page: &mut Page<'_>, other: &Page<'_>, random: &mut R
     }
 }
 
-/// Where the words of a line stand.
+/// Where the words of a line are.
 fn words(line: &str) -> Vec<Range<usize>> {
     let is_part =
         |character: char| character.is_alphanumeric() || matches!(character, '_' | '-' | '.' | '$' | '%');

@@ -1,4 +1,4 @@
-//! Specifications with many mistakes, or with one that stands for many.
+//! Specifications with many mistakes, or with one that represents many.
 
 use super::{Pattern, device_with, each, index, list, objects, pattern, spec};
 
@@ -147,14 +147,14 @@ pub const WRONG: &[Pattern] = &[
             &each(n, |at| format!("  0x{:X}: {{name: o{at}, type: kind {at}, access: ro}}\n", index(at))),
         )
     }),
-    pattern("unknown types beside types", |n| {
+    pattern("unknown types among types", |n| {
         let types = each(n, |at| format!("  sort {at}: {{base: unsigned8, values: {{0: a}}}}\n"));
         spec(
             &format!("types:\n{types}"),
             &each(n, |at| format!("  0x{:X}: {{name: o{at}, type: srt {at}, access: ro}}\n", index(at))),
         )
     }),
-    pattern("unknown units beside units", |n| {
+    pattern("unknown units among units", |n| {
         let units = each(n, |at| format!("  unit {at}: {{symbol: u{at}}}\n"));
         spec(&format!("units:\n{units}"), &objects(n, |at| format!(", unit: unti {at}")))
     }),
@@ -461,7 +461,7 @@ pub const WRONG: &[Pattern] = &[
     pattern("placeholders of no type", |n| {
         device_with(&format!(", dummies: [{}]", list(n, |at| format!("unsignd{at}"))), "", "")
     }),
-    pattern("bit rates of nobody", |n| {
+    pattern("bit rates of no device", |n| {
         device_with(&format!(" , bit-rates: [{}]", "11, ".repeat(n)), "", "").replacen(
             "bit-rates: [125], ",
             "",

@@ -27,7 +27,7 @@ impl Owned {
     }
 }
 
-/// What a program can get wrong, with the fault that it is told.
+/// What a program can get wrong, with the fault that it gets.
 struct Mistake {
     fault: Fault,
     at: usize,

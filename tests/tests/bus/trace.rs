@@ -1,4 +1,4 @@
-//! Traces in words: PDOs that the generated Rust packs are told with the values that were put in.
+//! Traces in words: PDOs that the generated Rust packs are reported with the values that were put in.
 
 #![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking, and counts")]
 
@@ -27,7 +27,7 @@ fn fraction(text: &str) -> (i128, i128) {
     (digits, 10_i128.pow(u32::try_from(decimals.len()).unwrap()))
 }
 
-/// Whether a value is told as the dump says that it is to be understood.
+/// Whether a value is reported as the dump says that it is to be understood.
 fn is_told(dump: &Json, entry: &Json, raw: i128, told: &str) -> bool {
     let named = entry.get("named-type").map(|name| {
         let types = dump["types"].as_array().unwrap();
@@ -55,11 +55,11 @@ fn is_told(dump: &Json, entry: &Json, raw: i128, told: &str) -> bool {
     let (n, d) = (number(&unit["scale"][0]), number(&unit["scale"][1]));
     let (on, od) = unit.get("offset").map_or((0, 1), |offset| (number(&offset[0]), number(&offset[1])));
     let (told_n, told_d) = fraction(amount);
-    // raw × n/d + on/od = told
+    // raw × n/d + on/od = reported
     (raw * n * od + on * d) * told_d == told_n * d * od && told.contains(unit["symbol"].as_str().unwrap())
 }
 
-/// Maps every entry that a TPDO can carry, packs it with values by chance, and reads what is told of it.
+/// Maps every entry that a TPDO can carry, packs it with values by chance, and reads what is reported about it.
 fn try_device<D: Dictionary<'static>>(path: &str, stem: &str, key: &str, mut dictionary: D) {
     let system = compile_clean(path).unwrap();
     let device = system.device(key).unwrap();
@@ -86,13 +86,13 @@ fn try_device<D: Dictionary<'static>>(path: &str, stem: &str, key: &str, mut dic
                 let raw = raw(entry["type"].as_str().unwrap(), &held);
                 let place = if sub == 0 { format!("{index:04X}h ") } else { format!("{index:04X}h.{sub} ") };
                 let value = told.split_once(&place).and_then(|(_, text)| text.split_once(" = "));
-                let (_, value) = value.unwrap_or_else(|| panic!("{place} is not told: {told}"));
+                let (_, value) = value.unwrap_or_else(|| panic!("{place} is not reported: {told}"));
                 assert!(is_told(&dump, entry, raw, value), "{key} {place}{raw}: {told}");
                 values += 1;
             }
         }
     }
-    println!("{key}: {values} values of {entries} entries in PDOs are told as they were packed");
+    println!("{key}: {values} values of {entries} entries in PDOs are reported as they were packed");
     assert!(entries > 5, "{entries} entries only");
 }
 
@@ -162,7 +162,7 @@ fn raw(data_type: &str, bytes: &[u8]) -> i128 {
 }
 
 #[test]
-fn pdos_of_the_generated_rust_are_told_with_their_values() {
+fn pdos_of_the_generated_rust_are_reported_with_their_values() {
     try_device(PITCH, "pitch-control-system", "pmc", Pmc::new(NODE));
     try_device(PITCH, "pitch-control-system", "pmm", Pmm::new(NODE));
     try_device(FULLMO, "fullmo-drive", "fullmo", Fullmo::new(NODE));

@@ -28,7 +28,7 @@ fn directory(name: &str) -> PathBuf {
     directory
 }
 
-/// The words of a name in capitals.
+/// The words of a name in upper case.
 fn upper(name: &str) -> String {
     let ascii = transliterate(name);
     let words: Vec<&str> =

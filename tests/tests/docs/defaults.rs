@@ -1,10 +1,10 @@
-//! Defaults of bit fields are told by the names of their bits.
+//! Defaults of bit fields are reported by the names of their bits.
 
 use super::links::{assert_has, page};
 use od_documents::Format;
 
 #[test]
-fn a_default_of_bits_is_told_by_their_names() {
+fn a_default_of_bits_is_shown_by_their_names() {
     let text = page("od-spec/devices/pitch-control-system.od.yaml", Format::Markdown, "en", "pmm.md");
     assert_has(text, "Outputs that switch the heater.<br>Set by default: relay X16.1.");
     assert_has(text, "Outputs that switch the cooler. |");

@@ -123,7 +123,7 @@ fn diagrams_show_the_blocks_and_what_goes_between_them() {
                 .collect();
             assert_eq!(drawn.len(), expected.len());
             assert_eq!(drawn.into_iter().collect::<BTreeSet<_>>(), expected);
-            // What stands at the arrows is there, too.
+            // What is at the arrows is there, too.
             let texts: BTreeSet<&str> = picture.iter().map(|one| one.text.as_str()).collect();
             for inflow in flow.blocks.iter().flat_map(|block| &block.from) {
                 let carries = inflow
@@ -159,7 +159,7 @@ fn axes_show_from_where_to_where_spans_lead() {
                 AxisReach::Above(mark) => assert!(from == marks[mark] && to > from && width - to < 10),
                 AxisReach::Below(mark) => assert!(from == marks[mark] && to < 10),
             }
-            // Its name stands above it.
+            // Its name is above it.
             let name = span.name.get("en").unwrap();
             let word = name.split(' ').next().unwrap();
             let is_near = |text: &&Element| {

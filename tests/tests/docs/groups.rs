@@ -57,7 +57,7 @@ fn a_long_chapter_is_divided_into_its_functions() {
     let found = titles(&groups);
     assert!(found.contains(&"5.8 Drive Control"), "{found:?}");
     assert!(!found.contains(&"5 The Pitch Motion Controller (PMC)"), "{found:?}");
-    // The error register stands in a chapter, too, and is looked for among the communication objects.
+    // The error register is in a chapter, too, and is looked for among the communication objects.
     let (title, last) = groups.last().unwrap();
     assert_eq!((title.as_str(), last.first().map(String::as_str)), ("Communication objects", Some("1000h")));
     assert!(

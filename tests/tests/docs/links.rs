@@ -13,7 +13,7 @@ fn chapter(format: Format, path: &str) -> &'static str {
     page("tests/docs/links.od.yaml", format, "de", path)
 }
 
-/// Whether a part stands in a text, which is shown where it does not.
+/// Whether a part is in a text, which is shown where it is not.
 pub(super) fn assert_has(text: &str, part: &str) {
     assert!(text.contains(part), "`{part}` is not in\n{text}");
 }
@@ -62,7 +62,7 @@ fn a_heading_is_no_link() {
 }
 
 #[test]
-fn the_language_of_a_text_with_links_is_told_once() {
+fn the_language_of_a_text_with_links_is_reported_once() {
     assert_has(
         chapter(Format::Html, "index.html"),
         "<p><span lang=\"en\">Write </span><a href=\"#2000\" lang=\"en\">2000h</a><span lang=\"en\"> after </span>\

@@ -96,7 +96,7 @@ fn the_way_down_names_the_codes_that_enable_the_drive() {
         let lines = picture["lines"].as_array().unwrap();
         let code = |number: u64| lines.iter().find(|line| line["number"] == number).unwrap()["code"].as_str();
         assert_eq!([2, 3, 4].map(|number| code(number).unwrap()), codes, "{spec}");
-        // Nobody commands the start, and what leads up has no room.
+        // The start is not commanded, and what leads up has no room.
         assert_eq!([0, 1, 8, 15].map(|number| code(number).unwrap()), [""; 4], "{spec}");
     }
 }

@@ -57,12 +57,12 @@ fn pages(spec: &str) -> &'static Manual {
     READ.get(spec.to_owned(), read).unwrap()
 }
 
-/// The tables behind an anchor, up to the next table's anchor.
+/// The tables after an anchor, up to the next table's anchor.
 fn behind<'a>(page: &'a Page, anchor: &str) -> Vec<&'a Table> {
     let is_table =
         |name: &String| ["table-", "figure-", "section-"].iter().any(|kind| name.starts_with(kind));
     let first = page.tables.iter().position(|table| table.anchors.iter().any(|name| name == anchor));
-    let first = first.unwrap_or_else(|| panic!("no table behind {anchor}"));
+    let first = first.unwrap_or_else(|| panic!("no table after {anchor}"));
     let rest = page.tables[first + 1..].iter().take_while(|table| !table.anchors.iter().any(is_table));
     std::iter::once(&page.tables[first]).chain(rest).collect()
 }
@@ -147,9 +147,9 @@ fn no_link_of_a_page_is_dead() {
     }
 }
 
-/// Devices that differ are told apart, numbers have their units, and odd texts break nothing: reviewed line by line.
+/// Devices that differ are distinguished, numbers have their units, and odd texts break nothing: reviewed line by line.
 #[test]
-fn devices_that_differ_are_told_apart() {
+fn devices_that_differ_are_distinguished() {
     let files = documents::pages(TWO, Format::Markdown, "en").unwrap();
     let wanted = [
         "README",

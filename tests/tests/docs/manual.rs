@@ -21,7 +21,7 @@ fn manual(spec: &str, errata: bool) -> &'static str {
     PRINTED.get((spec.to_owned(), errata), print).unwrap()
 }
 
-/// What stands in quotation marks behind a text, each time.
+/// What is in quotation marks after a text, each time.
 fn behind<'t>(page: &'t str, text: &'t str) -> impl Iterator<Item = &'t str> {
     page.split(text).skip(1).filter_map(|rest| rest.split('"').next())
 }
@@ -33,7 +33,7 @@ fn every_link_leads_to_one_place() {
             let page = manual(spec, errata);
             let mut ids = BTreeSet::new();
             for id in behind(page, " id=\"") {
-                assert!(ids.insert(id), "{spec}: {id} stands twice");
+                assert!(ids.insert(id), "{spec}: {id} is there twice");
             }
             let links: Vec<&str> = behind(page, "href=\"").collect();
             assert!(!links.is_empty(), "{spec} has no links");
@@ -48,7 +48,7 @@ fn every_link_leads_to_one_place() {
 }
 
 #[test]
-fn errata_stand_in_the_manual_on_request_only() {
+fn errata_are_in_the_manual_on_request_only() {
     let (plain, compared) = (manual(PITCH, false), manual(PITCH, true));
     for part in
         ["class=\"mark\"", "class=\"errata-of\"", "id=\"errata\"", "id=\"erratum-1\"", "id=\"tables\""]
@@ -63,7 +63,7 @@ fn each_device_has_what_no_chapter_shows() {
     for id in ["pmm-1018", "pmc-1018", "pmm-1018.1", "pmc-tpdo-1", "6040"] {
         assert!(page.contains(&format!(" id=\"{id}\"")), "{id}");
     }
-    // A chapter shows it, so that it does not stand behind the chapters again.
+    // A chapter shows it, so that it is not after the chapters again.
     assert!(!page.contains("id=\"pmc-6040\""));
 }
 

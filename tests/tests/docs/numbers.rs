@@ -29,7 +29,7 @@ fn a_number_in_a_text_is_a_link() {
     let text = page(NUMBERS, Format::Html, "en", "index.html");
     assert_has(
         text,
-        "<a href=\"#section-1.1\">Sections 1.1</a> and <a href=\"#section-1.2\">1.2</a> tell of them, \
+        "<a href=\"#section-1.1\">Sections 1.1</a> and <a href=\"#section-1.2\">1.2</a> describe them, \
          <a href=\"#section-2\">chapter 2</a> of the speed. <a href=\"#table-12\">Tables 12</a> to \
          <a href=\"#table-14\">14</a>; Table 15.",
     );
@@ -39,7 +39,7 @@ fn a_number_in_a_text_is_a_link() {
         text,
         "Not Table 130, nor table 48 of CiA 301; as <a href=\"#section-1.2\">section 1.2</a> says.",
     );
-    // A heading is none.
+    // A heading is not a link.
     assert_has(text, "1.1 Lamp in Table 12</h3>");
 }
 
@@ -93,7 +93,7 @@ fn what_is_not_in_a_document_is_no_link() {
     let lamp = files(NUMBERS, &["lamp"], &html);
     assert_has(
         &lamp["index.html"],
-        "<a href=\"#section-1.1\">Sections 1.1</a> and 1.2 tell of them, chapter 2 of the speed. \
+        "<a href=\"#section-1.1\">Sections 1.1</a> and 1.2 describe them, chapter 2 of the speed. \
          <a href=\"#table-12\">Tables 12</a> to 14; Table 15.",
     );
     for devices in [&["lamp"][..], &["fan"]] {
@@ -139,7 +139,7 @@ const NOUNS: [(&str, &[&str]); 3] = [
     ),
 ];
 
-/// The anchors that the words of a text name: every number behind a noun.
+/// The anchors that the words of a text name: every number after a noun.
 fn named(text: &str) -> Vec<String> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let bare = |word: &str| word.trim_matches(|sign: char| !sign.is_alphanumeric()).to_lowercase();
@@ -158,7 +158,7 @@ struct Said {
     places: BTreeSet<(String, String)>,
     /// Links to such, with their texts.
     links: Vec<(String, String, String)>,
-    /// Texts that are not links; quotations of the printed manual are none of the document's.
+    /// Texts that are not links; quotations of the printed manual are not the document's.
     texts: Vec<String>,
 }
 
@@ -229,7 +229,7 @@ fn every_number_that_the_shipped_documents_have_is_a_link() {
         let mut to_numbers = 0;
         for (page, anchor, text) in links {
             assert!(places.contains(&(page, anchor.clone())), "{spec}: `{text}` leads nowhere");
-            // A link that is no number in a text is one of the lists.
+            // A link that is not a number in a text is one of the lists.
             let number = anchor.rsplit_once('-').unwrap().1;
             let is_number = text.trim_end_matches(number).len() < text.len();
             to_numbers += usize::from(is_number);

@@ -1,4 +1,4 @@
-//! Texts of a manual stand between its tables, in the language of the document, and with the devices that they are about.
+//! Texts of a manual are between its tables, in the language of the document, and with the devices that they are about.
 
 use std::collections::BTreeSet;
 
@@ -32,17 +32,17 @@ fn chapters(devices: &[&str], language: &str, format: Format) -> String {
     chapters.map(|file| String::from_utf8_lossy(&file.bytes).into_owned()).collect()
 }
 
-/// Whether all of these stand in a text, in this order.
+/// Whether all of these are in a text, in this order.
 fn assert_in_order(text: &str, parts: &[&str]) {
     let mut rest = text;
     for part in parts {
-        let at = rest.find(part).unwrap_or_else(|| panic!("`{part}` is not behind the others in\n{text}"));
+        let at = rest.find(part).unwrap_or_else(|| panic!("`{part}` is not after the others in\n{text}"));
         rest = &rest[at + part.len()..];
     }
 }
 
 #[test]
-fn texts_stand_between_tables() {
+fn texts_are_between_tables() {
     let text = chapters(&[], "en", Format::Markdown);
     assert_in_order(
         &text,
@@ -52,7 +52,7 @@ fn texts_stand_between_tables() {
             "Before the table of ",
             "**Table 1**",
             "**Table 2**",
-            "> **Warning**\n>\n> Behind the table.\n",
+            "> **Warning**\n>\n> After the table.\n",
             "1. First.\n2. \\- Second.\n",
             "- a\n- b\n",
             "> **Note**\n>\n> Line of a note.\n>\n> Second line.\n",
@@ -67,7 +67,7 @@ fn texts_stand_between_tables() {
             "<p class=\"prose\">Another one.</p>",
             "Before the table of ",
             "id=\"table-1\"",
-            "<div class=\"prose warning\" id=\"section-2.1-warning-1\" role=\"note\">\n<p><b>Warning</b></p>\n<p>Behind the table.</p>",
+            "<div class=\"prose warning\" id=\"section-2.1-warning-1\" role=\"note\">\n<p><b>Warning</b></p>\n<p>After the table.</p>",
             "<ol class=\"prose\">\n<li>First.</li>\n<li>- Second.</li>\n</ol>",
             "<p class=\"prose formula\">d = e</p>",
         ],
@@ -91,10 +91,10 @@ fn texts_go_with_the_devices_around_them() {
     let one = chapters(&["one"], "en", Format::Markdown);
     assert_in_order(
         &one,
-        &["One paragraph.", "About both.", "Before the table", "**Table 1**", "Behind the table.", "First."],
+        &["One paragraph.", "About both.", "Before the table", "**Table 1**", "After the table.", "First."],
     );
     for absent in ["Table 2", "Line of a note", "Only about two"] {
-        assert!(!one.contains(absent), "`{absent}` stands in\n{one}");
+        assert!(!one.contains(absent), "`{absent}` is in\n{one}");
     }
     let two = chapters(&["two"], "en", Format::Markdown);
     assert_in_order(
@@ -105,14 +105,14 @@ fn texts_go_with_the_devices_around_them() {
 }
 
 #[test]
-fn warnings_stand_where_the_object_does() {
+fn warnings_are_where_the_object_does() {
     let text = page("two.md", "en", Format::Markdown);
     assert_in_order(
         text,
         &[
             "2002h speed",
             "| **Warning:** The axis moves at once.",
-            // Whoever writes the view does the same; who reads it does not.
+            // The view does the same when it is made, and not when it is read.
             "2003h speed in 16 bits",
             "**Warning:** The axis moves at once.<br>View of",
             "2004h speed to be read",
@@ -191,7 +191,7 @@ fn the_overview_has_every_warning() {
         let count = texts.len();
         texts.sort_unstable();
         texts.dedup();
-        assert_eq!(texts.len(), count, "{path}: a warning stands twice");
+        assert_eq!(texts.len(), count, "{path}: a warning is there twice");
         let mut expected: BTreeSet<(String, String)> = BTreeSet::new();
         for device in &system.devices {
             for (id, object, entry) in device.entries() {

@@ -33,7 +33,8 @@ fn default(entry: &Entry, cell: &str) -> Option<Value> {
     })
 }
 
-/// The raw value that a cell gives: behind a physical value in brackets, before the name of an enum's or special value, or alone.
+/// The raw value that a cell gives: after a physical value in brackets, before the name of an enum's or special value,
+/// or alone.
 fn number(entry: &Entry, cell: &str) -> i128 {
     // A mapping parameter in its parts: 6040 00 10h.
     if let [index, sub, bits] = cell.split(' ').collect::<Vec<_>>()[..]
@@ -549,7 +550,7 @@ fn check_axis(system: &System, table: &Table, axis: &Axis) {
     }
 }
 
-/// A row for each step, behind one for what holds before the first.
+/// A row for each step, after one for what holds before the first.
 fn check_timing(system: &System, table: &Table, timing: &Timing) {
     assert_eq!(table.rows.len(), timing.steps.len() + 1);
     let levels = table.columns.len() - timing.signals.len();

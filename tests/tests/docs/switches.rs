@@ -94,7 +94,7 @@ fn pictures_show_where_switches_go_on_and_off() {
             assert_eq!(at, expected, "the state changes at the ends of the lines");
             let (on, off) = points(&system, switch);
             placed.extend([(in_tenths(on), goes_on), (in_tenths(off), goes_off)]);
-            // Values stand beside the edges, words beside the lines.
+            // Values are next to the edges, words next to the lines.
             let values = &texts[3..];
             assert_eq!(values.len(), 2);
             for (value, x) in [(on, goes_on), (off, goes_off)] {

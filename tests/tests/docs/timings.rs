@@ -27,9 +27,9 @@ fn shown(level: &Level) -> String {
     }
 }
 
-/// The middle of each row, from the top, and its elements: what stands nearest to it.
+/// The middle of each row, from the top, and its elements: what is nearest to it.
 fn rows(picture: &[Element], count: usize) -> Vec<(i64, Vec<&Element>)> {
-    // The elements of a signal stand behind each other, beginning with its label.
+    // The elements of a signal follow each other, beginning with its label.
     let first = picture.iter().position(|element| element.is("left")).unwrap();
     let mut rows: Vec<(i64, Vec<&Element>)> = Vec::new();
     for element in &picture[first..] {
@@ -108,7 +108,7 @@ fn pictures_show_the_levels_that_are_given() {
             assert_eq!(numbers, steps);
             let at: Vec<i64> = marks.iter().map(|mark| mark.number("x")).collect();
             let width = picture[0].number("width");
-            // Between two marks, before the first and behind the last, each level is drawn once.
+            // Between two marks, before the first and after the last, each level is drawn once.
             let mut places: Vec<i64> = at.windows(2).map(|pair| i64::midpoint(pair[0], pair[1])).collect();
             let interval = at.get(1).map_or(40, |second| second - at[0]);
             places.insert(0, at[0] - interval / 2);
@@ -125,7 +125,7 @@ fn pictures_show_the_levels_that_are_given() {
                     .collect();
                 let given_runs = given_runs(&signal.levels, &edges);
                 assert_eq!(drawn_runs(&row), given_runs, "{spec}: {:?}", signal.carrier);
-                // The digits beside a line say the same.
+                // The digits next to a line say the same.
                 for (place, level) in places.iter().zip(&given) {
                     let near = |element: &&&Element| {
                         element.name == "text"

@@ -162,20 +162,20 @@ fn a_unit_that_a_comment_names_at_the_number_of_entries_changes_no_value() {
     );
 }
 
-/// What putting right makes of this is read as before.
+/// What fixing makes of this is read as before.
 fn keeps_its_meaning(objects: &str) {
     let checked = lamp(objects);
     assert!(checked.passed(Step::Fixing), "{:?}", checked.problems);
 }
 
 #[test]
-fn a_key_with_a_blank_is_read_as_it_is_written_when_put_right() {
+fn a_key_with_a_space_is_read_as_it_is_written_when_fixed() {
     keeps_its_meaning(&entry("2000", "DataType=5\nAc\tcessType=rw\nDefault Value=7"));
     keeps_its_meaning(&entry("2000", "DataType=5\nAccess Type=rw\nAccessType=ro"));
 }
 
 #[test]
-fn of_equal_keys_and_sections_none_is_removed_behind_another() {
+fn of_equal_keys_and_sections_none_is_removed_after_another() {
     keeps_its_meaning(&entry("2000", "DataType=5\nAccessType=rw\nAccessType=ro\nAccessType=rw"));
     let (one, other) =
         (entry("2000", "DataType=5\nAccessType=rw"), entry("2000", "DataType=6\nAccessType=rw"));
@@ -183,7 +183,7 @@ fn of_equal_keys_and_sections_none_is_removed_behind_another() {
 }
 
 #[test]
-fn unicode_blanks_around_a_text_are_no_part_of_it() {
+fn unicode_spaces_around_a_text_are_no_part_of_it() {
     keeps_its_meaning("[2000]\nParameterName=a name\u{2028}\nObjectType=7\nDataType=5\nAccessType=ro\n");
 }
 
@@ -196,9 +196,9 @@ fn a_section_whose_name_lacks_a_bracket_is_one() {
     }
 }
 
-/// A character that turns text in a name, a key that nobody knows, and a comment: a specification may not hold it.
+/// A character that turns text in a name, a key that is unknown, and a comment: a specification may not hold it.
 #[test]
-fn text_that_turns_does_not_stand_in_the_way() {
+fn text_that_turns_does_not_hinder() {
     let entry = entry("2000", "DataType=5\nAccessType=rw").replace("object 2000", "level \u{202E}3");
     let Checked { problems, .. } =
         lamp(&format!("; \u{202E}remark\n{entry}x\u{200F}y=0\n[o\u{2066}ther]\nz=1\n"));

@@ -76,7 +76,7 @@ fn a_number_with_a_zero_in_front_is_octal_and_has_no_nine() {
             assert!(said.contains(&help), "{key}={number}: {said}");
         }
     }
-    // What is no number otherwise has no such help.
+    // What is not a number otherwise has no such help.
     for number in ["0x09G", "0a9", "nine", "09,5"] {
         let said = said("lamp.eds", &(HEAD.to_owned() + &var("2000", 6, number)));
         assert!(said.contains("EDS501") && !said.contains("octal"), "{number}: {said}");
@@ -152,7 +152,7 @@ fn what_a_file_does_not_say_disagrees_with_nothing() {
 }
 
 #[test]
-fn a_name_of_all_elements_is_told_once() {
+fn a_name_of_all_elements_is_reported_once() {
     let element = |sub: u8, name: &str| {
         var(&format!("2000sub{sub:X}"), 5, "0").replace(&format!("entry 2000sub{sub:X}"), name)
     };

@@ -31,7 +31,7 @@ mod special_values {
     od_macros::object_dictionary!("shared/special-values.od.yaml");
 }
 
-/// An application that remembers what it was told.
+/// An application that remembers what it was asked.
 #[derive(Default)]
 struct Log<E> {
     unlocked: bool,
@@ -108,7 +108,7 @@ fn a_view_in_volts_rounds_millivolts_down() {
 }
 
 #[test]
-fn writing_a_view_writes_its_target_and_tells_of_it() {
+fn writing_a_view_writes_its_target_and_reports_it() {
     let mut od = Pmc::new(1);
     let mut application = log();
     for value in [i16::MIN, -1, 0, 1, i16::MAX] {
@@ -212,7 +212,7 @@ fn constraints_hold_for_the_defaults_and_are_kept() {
     assert!(od.write(0x30FB, 7, &chopper_off, &mut application).is_ok());
     let broken = od.broken_constraint().unwrap();
     assert!(broken.name.contains("ladder") || broken.name.contains("chopper"), "{}", broken.name);
-    // A condition that is broken already does not stand in the way of other values.
+    // A condition that is broken already does not prevent other values.
     assert!(od.write_consistent(0x30E0, 0, &2500u16.to_le_bytes(), &mut application).is_ok());
     // What is broken already can be mended, though not yet met by everything.
     assert!(od.write_consistent(0x30FB, 7, &600u16.to_le_bytes(), &mut application).is_ok());
@@ -325,7 +325,7 @@ fn a_mapping_keeps_to_the_granularity_of_the_device() {
 }
 
 #[test]
-fn placeholders_stand_in_rpdos_only() {
+fn placeholders_are_in_rpdos_only() {
     let mut od = Everything::new(1);
     let mut write = |index, sub, value: u32, size: usize| {
         od.write(index, sub, &value.to_le_bytes()[..size], &mut ()).map(drop)
@@ -450,7 +450,7 @@ fn every_data_type_is_read_and_written() {
     assert_eq!(od.a_visible_string(), "exactly twenty bytes");
     assert_eq!(od.write(0x2013, 0, b"exactly twenty bytes!", &mut ()), Err(AbortCode::TOO_LONG));
     assert_eq!(od.write(0x2013, 0, b"no\ncontrol", &mut ()), Err(AbortCode::INVALID_VALUE));
-    // Zeros may pad a text, not stand in it.
+    // Zeros may pad a text, but not be in it.
     assert_eq!(od.write(0x2013, 0, b"one\0two", &mut ()), Err(AbortCode::INVALID_VALUE));
     assert!(od.write(0x2013, 0, b"one\0\0", &mut ()).is_ok());
     assert_eq!(od.a_visible_string(), "one");

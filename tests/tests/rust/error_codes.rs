@@ -174,7 +174,7 @@ impl DeviceErrorRegister {
     }
 }
 
-/// The list of errors has a column for the bits of 1001h where somebody states them, and none elsewhere.
+/// The list of errors has a column for the bits of 1001h where they are stated, and none elsewhere.
 #[test]
 fn documents_show_stated_bits() {
     let page = |path: &str, language: &str| {

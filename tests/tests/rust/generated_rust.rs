@@ -173,7 +173,7 @@ pdos:
 }
 
 #[test]
-fn a_macro_stands_at_the_item_that_it_completes() {
+fn a_macro_is_at_the_item_that_it_completes() {
     for (name, module) in all_modules(rust::file) {
         let lines: Vec<&str> = module.lines().collect();
         let alone =

@@ -49,8 +49,8 @@ fn words_of_the_generator() -> Vec<String> {
     words
 }
 
-/// The names: all, and those that can be names of types. A name that begins or ends as something that is printed beside another
-/// one, such as a setter, would clash with that one; these are for specifications of their own.
+/// The names: all, and those that can be names of types. A name that begins or ends as something that is printed with
+/// another one, such as a setter, would clash with that one; these are for specifications of their own.
 struct Names {
     all: Vec<String>,
     beside: Vec<String>,

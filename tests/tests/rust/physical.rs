@@ -175,7 +175,7 @@ fn generated_code_converts_and_shows() {
     assert_eq!(CelsiusAbove40(60u8).convert::<Decikelvin<u16>, u16>(), Err(OutOfRange), "between two steps");
     assert_eq!(CelsiusAbove40(60u8).convert_down::<Decikelvin<u16>, u16>(), Ok(Decikelvin(2931)));
     assert_eq!(Third(1u8).convert::<CelsiusAbove40<u8>, u8>(), Ok(CelsiusAbove40(40)), "both are 0 °C");
-    // Limits of REAL: what is no number lies in none of them.
+    // Limits of REAL: what is not a number lies in none of them.
     let single =
         |od: &mut Pack, index, value: f32| od.write(index, 0, &value.to_le_bytes(), &mut ()).map(drop);
     let double =
@@ -242,7 +242,7 @@ fn one_of_two_conditions_is_enough() {
 }
 
 #[test]
-fn names_in_conditions_stand_for_indices() {
+fn names_in_conditions_mean_indices() {
     let system = compile_clean("tests/ui/ok_conditions_by_name.od.yaml").unwrap();
     let device = &system.devices[0];
     let condition = |index, sub| {

@@ -20,7 +20,7 @@ mod fragment {
     }
 }
 
-/// Names in upper case stand for any; what is before them has to exist.
+/// Names in upper case represent any; what is before them has to exist.
 #[test]
 fn files_that_contributors_look_for_exist() {
     let root = od_tests::root();

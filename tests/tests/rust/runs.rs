@@ -63,7 +63,7 @@ fn values_take_the_number_that_their_names_have() {
     assert_eq!((modules.limit_3(), modules.limit_4()), (30, 41));
 }
 
-/// Only what is alike, numbered without a gap and nobody else's name is reached by number.
+/// Only what is alike, numbered without a gap and is no other name is reached by number.
 #[test]
 fn others_are_not() {
     let modules = Modules::new(1);

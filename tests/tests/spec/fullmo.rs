@@ -1,5 +1,5 @@
-//! The Fullmo drive holds its whole manual, tells the maker's word from the standard's, and its Rust gives the raw
-//! values that the manual prints.
+//! The Fullmo drive holds its whole manual, distinguishes the maker's word from the standard's, and its Rust gives the
+//! raw values that the manual prints.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -97,7 +97,7 @@ fn nothing_is_known_to_be_stored() {
 }
 
 #[test]
-fn every_table_of_the_manual_stands_once_and_in_order() {
+fn every_table_of_the_manual_is_there_once_and_in_order() {
     let system = fullmo();
     let tables = system.document.sections.iter().flat_map(|section| &section.tables);
     let numbers: Vec<u16> = tables.filter_map(|table| table.number).collect();
@@ -153,22 +153,23 @@ fn what_the_manual_does_not_say_is_marked_as_the_standards_word() {
     let of_the_standard: Vec<Fact> = acceleration.facts.said_by(Author::Library).collect();
     assert_eq!(of_the_standard, [Fact::Type, Fact::Access, Fact::Mapping, Fact::Category]);
     assert_eq!(acceleration.unit.as_ref().unwrap().name, "revolution per second squared");
-    // 3511h: type and access stand in Table 2, nothing of a standard's.
+    // 3511h: type and access are in Table 2, nothing of a standard's.
     let edges = entry(0x3511, 1);
     assert_eq!((edges.data_type, edges.access), (DataType::Unsigned16, Access::Rw));
     assert_eq!(edges.facts.said_by(Author::Library).count(), 0);
-    // 60B8h is another thing than in CiA 402: nobody maps it by mistake.
+    // 60B8h is another thing than in CiA 402: it is not mapped by mistake.
     assert_eq!(entry(0x60B8, 0).pdo, PdoMapping::None);
 }
 
-/// The EDS tells why a default is missing: nothing is known to be stored, but the standard's defaults are not the maker's.
+/// The EDS states why a default is missing: nothing is known to be stored, but the standard's defaults are not the
+/// maker's.
 #[test]
 fn the_eds_does_not_promise_the_standards_defaults() {
     let system = fullmo();
     let eds = String::from_utf8(od_formats::eds::write_eds(&system, &system.devices[0])).unwrap();
     assert!(eds.contains("=24 defaults are left out because only the standard states them"), "{eds}");
     assert!(!eds.contains("defaults of stored or locked parameters"));
-    // What it starts with is chosen here, and nobody promises it.
+    // What it starts with is chosen here, and not promised.
     assert!(eds.contains("=3 values that the device starts with are left out"), "{eds}");
     let section =
         |name: &str| eds.split("\r\n\r\n").find(|part| part.contains(&format!("[{name}]"))).unwrap();

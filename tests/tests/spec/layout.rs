@@ -65,7 +65,7 @@ fn every_specification_keeps_its_facts_and_is_laid_out_at_once() {
 }
 
 #[test]
-fn lines_stand_where_they_belong() {
+fn lines_are_where_they_belong() {
     let text = "\
 od-spec:   1
 
@@ -117,7 +117,7 @@ units:
 }
 
 #[test]
-fn what_is_no_yaml_is_told_with_its_place() {
+fn what_is_not_yaml_is_reported_with_its_place() {
     let (diagnostics, sources) = layout("a.od.yaml", "a: [1\nb: 2\n".to_owned()).unwrap_err();
     let first = diagnostics.iter().next().unwrap();
     assert_eq!(first.code.id, "OD0104");
@@ -127,7 +127,7 @@ fn what_is_no_yaml_is_told_with_its_place() {
 #[test]
 fn texts_that_are_easily_broken_stay() {
     for (text, laid_out) in [
-        // A line of blanks in a block of text, and one behind it.
+        // A line of spaces in a block of text, and one after it.
         ("a: |\n  one\n     \n  two\nb: c\n", "a: |\n  one\n     \n  two\nb: c\n"),
         ("a:\n    # x\n  b: c\n", "a:\n  # x\n  b: c\n"),
         ("\u{feff}# c\na:   b\n", "\u{feff}# c\na: b\n"),

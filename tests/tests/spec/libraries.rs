@@ -13,7 +13,7 @@ fn library(name: &str) -> &'static str {
     LIBRARIES.iter().find(|(known, _)| *known == name).unwrap().1
 }
 
-/// The keys of one of a library's maps, as they stand at the margin of the map.
+/// The keys of one of a library's maps, as they are at the margin of the map.
 fn keys(text: &str, map: &str) -> Vec<String> {
     let start = text.find(&format!("\n{map}:\n")).unwrap() + map.len() + 3;
     let lines = text[start..].lines().take_while(|line| line.is_empty() || line.starts_with(' '));
@@ -30,7 +30,8 @@ fn objects_of(text: &str, feature: &str) -> Vec<u16> {
 }
 
 /// Warnings that a feature without its companions deserves: nothing that a mandatory feature would bring, objects for PDOs without
-/// PDOs, guarding beside a heartbeat, constants without the device's value, nothing to store, and a choice that the device has to make.
+/// PDOs, guarding together with a heartbeat, constants without the device's value, nothing to store, and a choice that
+/// the device has to make.
 const USEFUL_WITH_MORE: [&str; 7] = ["OD0801", "OD0802", "OD0803", "OD0805", "OD0809", "OD0837", "OD0885"];
 
 /// The system, and the messages one per line.
@@ -65,7 +66,7 @@ fn head(library: &str, features: &str) -> String {
     )
 }
 
-/// A feature with what it needs to be told: the number of its channels, or of those of another one.
+/// A feature with what has to be stated for it: the number of its channels, or of those of another one.
 fn selected(text: &str, feature: &str) -> String {
     let of = |key: &str| {
         let (_, features) = text.split_once("\nfeatures:").unwrap();

@@ -88,9 +88,9 @@ fn values(table: &Keys, key: &str) -> [&'static str; 2] {
 /// A place that takes the keys of a table.
 struct Place {
     table: &'static Keys,
-    /// What stands before the map of the keys, and behind it.
+    /// What is before the map of the keys, and after it.
     around: [String; 2],
-    /// What stands in the map.
+    /// What is in the map.
     there: &'static [(&'static str, &'static str)],
 }
 
@@ -269,7 +269,7 @@ fn places() -> Vec<Place> {
     places
 }
 
-/// The model without what only tells who says something, and the messages.
+/// The model without what only says who states something, and the messages.
 fn seen(text: &str) -> (Option<serde_json::Value>, BTreeSet<String>) {
     fn strip(value: &mut serde_json::Value) {
         match value {

@@ -20,7 +20,7 @@ const BEYOND_SCHEMA: &[(&str, &str)] = &[
     ("err_od0406", "a limit of a value in a unit is compared after it was scaled"),
     ("err_od0412", "so is a step"),
     ("err_od0606", "a condition is about several entries"),
-    ("err_od0704", "whether a locked entry is unlocked may stand in another file"),
+    ("err_od0704", "whether a locked entry is unlocked may be in another file"),
     ("err_od0708", "one entry has many names"),
 ];
 
@@ -107,7 +107,7 @@ fn the_schema_of_a_plant_knows_its_devices() {
         ("valve: {set pressure: 6.0 bar}", "valve: {set presure: 6.0 bar}"),
         ("valve: {set pressure: 6.0 bar}", "valve: {set pressure: 6.0 V}"),
         ("valve: {set pressure: 6.0 bar}", "valve: {0x2000: 161}"),
-        // Nobody sets an actual value.
+        // An actual value is not set.
         ("valve: {set pressure: 6.0 bar}", "valve: {actual pressure: 6.0 bar}"),
         ("valve: {set pressure: 6.0 bar}", "pump: {set pressure: 6.0 bar}"),
         ("left: {valve: 1}", "left: {valve: 128}"),

@@ -45,7 +45,7 @@ fn counts_of_objects_per_device() {
 }
 
 #[test]
-fn every_table_of_the_manual_stands_once_and_in_order() {
+fn every_table_of_the_manual_is_there_once_and_in_order() {
     let system = pitch();
     let tables: Vec<_> = system.document.sections.iter().flat_map(|section| &section.tables).collect();
     let numbers: Vec<u16> = tables.iter().filter_map(|table| table.number).collect();
@@ -85,7 +85,7 @@ fn rows_of_every_overview_table() {
 }
 
 #[test]
-fn every_object_of_the_manual_stands_in_a_table() {
+fn every_object_of_the_manual_is_in_a_table() {
     let system = pitch();
     let listed: BTreeSet<u16> = system
         .document

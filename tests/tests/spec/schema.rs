@@ -272,7 +272,7 @@ fn examples_of_keys_fit_them() {
 fn check_examples(table: &Value, schema: &Value) {
     for (name, key) in table["properties"].as_object().into_iter().flatten() {
         for example in key["examples"].as_array().into_iter().flatten() {
-            // Beside `$ref`, draft-07 validators ignore everything, so that definitions need a level of their own.
+            // Next to `$ref`, draft-07 validators ignore everything, so that definitions need a level of their own.
             let of_key = serde_json::json!({"allOf": [key], "definitions": schema["definitions"]});
             let validator = jsonschema::draft7::new(&of_key).expect("a schema");
             let value = json(example.as_str().expect("a text"));

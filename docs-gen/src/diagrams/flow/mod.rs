@@ -1,9 +1,10 @@
 //! The picture of a block diagram: blocks in layers, arrows between them.
 //!
-//! A block stands in the layer behind the last that it takes from; one that takes nothing stands right before the first that takes
-//! from it. Layers follow each other from left to right, or from top to bottom where that would be too wide. An arrow over several
-//! layers has a place of its own in each of them, so that no arrow crosses a block; between two layers it turns in a lane.
-//! Everything is computed along the way of the arrows (`along`) and across it; only at the end these become `x` and `y`.
+//! A block is in the layer after the last that it takes from; one that takes nothing is right before the first that
+//! takes from it. Layers follow each other from left to right, or from top to bottom where that would be too wide. An
+//! arrow over several layers has a place of its own in each of them, so that no arrow crosses a block; between two
+//! layers it turns in a lane. Everything is computed along the way of the arrows (`along`) and across it; only at the
+//! end these become `x` and `y`.
 
 pub(crate) mod graph;
 
@@ -99,7 +100,7 @@ struct Layout {
     graph: Graph,
     /// Where each layer begins and ends.
     columns: Vec<(i64, i64)>,
-    /// The nets behind each layer, and where their first lane is.
+    /// The nets after each layer, and where their first lane is.
     gaps: Vec<(Vec<Net>, i64)>,
     lines: Vec<Vec<Lines>>,
     /// Where the last block or label ends across the way.
@@ -116,7 +117,7 @@ impl Layout {
             let (width, height) = ((width + 2 * PADDING.0).max(60), height_of(&text) + 2 * PADDING.1);
             let arrows = i64::try_from(block.from.len()).unwrap_or_default();
             let (size, depth) = match way {
-                // A label stands above the end of its arrow, or beside it.
+                // A label is above the end of its arrow, or next to it.
                 Way::Right => (height.max(arrows * if longest > 0 { 18 } else { 12 }), width),
                 Way::Down => (width.max(arrows * if longest > 0 { longest + 14 } else { 14 }), height),
             };

@@ -152,7 +152,7 @@ fn a_chain_is_one_straight_line() {
     let drawn = picture(&[block("a", &[]), block("b", &[0]), block("c", &[1])]);
     assert!(drawn.arrows.iter().all(|arrow| pieces(&arrow.path).len() == 1));
     assert!(drawn.dots.is_empty());
-    // One that gives to two has a dot where its lines part; one that is needed late stands right before it.
+    // One that gives to two has a dot where its lines part; one that is needed late is right before it.
     let drawn = picture(&[block("a", &[]), block("b", &[0]), block("late", &[]), block("c", &[1, 2, 0])]);
     assert_eq!(drawn.dots.len(), 1);
     assert_eq!(drawn.boxes[2].x, drawn.boxes[1].x);

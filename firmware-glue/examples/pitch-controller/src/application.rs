@@ -24,13 +24,13 @@ pub type Store<'m> = ParameterStore<RamFlash<'m>, 64>;
 const ON_COMMAND: StoreCapability = StoreCapability(0).with_saves_on_command(true);
 /// The simulation goes on in steps of this time.
 const STEP: Duration = Duration::from_millis(10);
-/// Steps in a second: speeds are told per second.
+/// Steps in a second: speeds are reported per second.
 const STEPS_PER_SECOND: u32 = 100;
 /// The DC link of the bench, which never changes.
 const DC_LINK: units::Millivolt<u32> = units::Millivolt(560_000);
 const DC_LINK_VOLTS: u16 = 560;
 
-/// What the main loop tells the node.
+/// What the main loop reports to the node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Report {
     /// An error has occurred.
@@ -50,7 +50,7 @@ pub struct Drive<'m> {
     /// What a step has left of a position unit, in parts of [`STEPS_PER_SECOND`].
     rest: u32,
     stepped: Instant,
-    /// The error that the node has been told of.
+    /// The error that was reported to the node.
     told: Option<u16>,
     #[cfg(feature = "names")]
     console: crate::uart::Uart,
@@ -165,7 +165,7 @@ impl<'m> Drive<'m> {
     }
 }
 
-/// Which transitions may be made now. The enable input of this drive is always on, and nobody gives the EFC signal.
+/// Which transitions may be made now. The enable input of this drive is always on, and the EFC signal never comes.
 struct Guards;
 
 impl StateHandler<PowerDriveState> for Guards {

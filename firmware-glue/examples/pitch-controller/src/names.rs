@@ -4,7 +4,7 @@ use crate::pmc::Entry;
 use crate::slcan::Wire;
 use crate::uart::Uart;
 
-/// Tells of a write.
+/// Reports a write.
 pub fn tell(console: &mut Uart, entry: Entry) {
     for byte in entry.name().bytes().chain(*b" written\r\n") {
         while console.send(byte).is_err() {}

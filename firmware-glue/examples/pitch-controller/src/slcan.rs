@@ -2,7 +2,8 @@
 //!
 //! A line of text ends with a carriage return. The host opens (`O`) and closes (`C`) the channel, chooses a bit rate (`S6`), and sends
 //! frames: `t` with an identifier of three hexadecimal digits, the length, the bytes; `r` for a remote frame. What is done is answered
-//! with a carriage return, behind a `z` for a frame; what is not, with a bell. Frames of the node go to the host in the same form.
+//! with a carriage return, after a `z` for a frame; what is not, with a bell. Frames of the node go to the host in the
+//! same form.
 //!
 //! To the rest of the firmware it is a driver like any other, by the traits of `embedded-can`.
 
@@ -115,7 +116,7 @@ impl<W: Wire> Can for Slcan<W> {
     fn transmit(&mut self, message: &Message) -> nb::Result<Option<Message>, Infallible> {
         self.flush();
         match self.channel {
-            // Nobody hears it.
+            // It is not heard.
             Channel::Closed => Ok(None),
             Channel::Open if self.waiting.room() < LONGEST => Err(nb::Error::WouldBlock),
             Channel::Open => {

@@ -15,7 +15,7 @@ use crate::slcan::Wire;
 pub enum Uart {
     /// UART 0, which carries the frames.
     Frames,
-    /// UART 1, which tells what happens.
+    /// UART 1, which prints what happens.
     #[cfg(feature = "names")]
     Console,
 }

@@ -55,7 +55,7 @@ pub(crate) fn check(
         // What the device itself holds, and no client writes.
         (0x1003, 0) | (0x1010 | 0x1011, _) if before == Before::Nothing => {}
         (0x1003, 0) if new != 0 => return Err(AbortCode::INVALID_VALUE),
-        // Nobody could say how often.
+        // It would be unknown how often.
         (0x1005, 0) if new & !old(0) & PRODUCER != 0 && current(table, image, 0x1006, 0).is_none() => {
             return Err(AbortCode::INVALID_VALUE);
         }

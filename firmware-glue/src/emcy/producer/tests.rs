@@ -115,7 +115,7 @@ fn more_errors_than_there_is_room_for_stay_in_the_register() {
     producer.clear(&mut device, 0x2000);
     assert_eq!(producer.register().bits(), 0x0D);
     producer.clear(&mut device, 0x3000);
-    assert_eq!(producer.register().bits(), 0x09, "whether 4000h is gone, nobody knows");
+    assert_eq!(producer.register().bits(), 0x09, "whether 4000h is gone, is unknown");
     assert!(!producer.clear(&mut device, 0x4000));
     assert!(producer.clear_all(&mut device));
     assert_eq!((producer.register(), read(&device, 0x1001, 0)), (ErrorRegister::NONE, Ok(0)));

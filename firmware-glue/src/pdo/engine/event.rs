@@ -1,4 +1,4 @@
-//! What the PDO engine tells the application.
+//! What the PDO engine reports to the application.
 
 use crate::access::application::Application;
 use crate::access::application::Entries;
@@ -10,7 +10,7 @@ use crate::pdo::{PdoError, Refused};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum PdoEvent<E> {
-    /// The values of an RPDO took effect, but for those that were refused.
+    /// The values of an RPDO took effect, except those that were refused.
     Received {
         /// Number of the RPDO.
         number: u16,

@@ -5,7 +5,8 @@
 //! a time, as the driver has room for them.
 //!
 //! A SYNC does two things, in this order: synchronous TPDOs take their values, then synchronous RPDOs that came since the SYNC
-//! before take effect. So a TPDO tells how things stood at the SYNC. What is not sent, or comes, after the synchronous window (1007h) is dropped and told.
+//! before take effect. So a TPDO reports the values at the SYNC. What is not sent, or comes, after the synchronous
+//! window (1007h) is dropped and reported.
 //!
 //! Where CiA 301 leaves a choice: a cyclic TPDO of type n goes with the n-th SYNC after the node became operational, the one
 //! with the start value counted as the first. A remote frame for a synchronous TPDO makes it go with the next SYNC. The inhibit time counts for event-driven
@@ -206,7 +207,8 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
         }
     }
 
-    /// A TPDO that is to be sent now; to be called until there is none. RPDOs that are overdue are told to the application.
+    /// A TPDO that is to be sent now; to be called until there is none. RPDOs that are overdue are reported to the
+    /// application.
     pub fn poll<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
         dictionary: &mut D,

@@ -28,7 +28,7 @@ enum Watch {
     Overdue,
 }
 
-/// How much data the last frame had, beside the mapping.
+/// How much data the last frame had, compared with the mapping.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Length {
     /// As much; or none has come.
@@ -111,7 +111,7 @@ impl Receive {
         }
     }
 
-    /// A wrong length is told once: every frame of a sender that has another mapping has it.
+    /// A wrong length is reported once: every frame of a sender that has another mapping has it.
     fn judge<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
         length: Length,

@@ -56,7 +56,8 @@ impl Transmit {
         *self = Self { settings, since: now, ..Self::NEW };
     }
 
-    /// Takes up the present parameters; with others, it begins anew, but for the inhibit time of what was sent before.
+    /// Takes up the present parameters; with others, it begins anew, except for the inhibit time of what was sent
+    /// before.
     fn update(&mut self, settings: Option<Settings>, now: Instant) -> Option<Settings> {
         if self.settings != settings {
             let sent = self.sent.filter(|_| self.settings.map(|old| old.id) == settings.map(|new| new.id));

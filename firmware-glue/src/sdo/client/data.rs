@@ -4,12 +4,12 @@ use crate::abort::AbortCode;
 
 /// Takes what a client reads.
 ///
-/// What came before a transfer failed is worth nothing: with blocks, only the end tells whether the checksum is right.
+/// What came before a transfer failed is worth nothing: with blocks, only the end shows whether the checksum is right.
 pub trait Sink {
     /// Called before the first piece, with the number of bytes that the server announces, if it does.
     ///
     /// # Errors
-    /// The transfer ends, and the server is told this code.
+    /// The transfer ends, and this code is sent to the server.
     fn begin(&mut self, size: Option<u32>) -> Result<(), AbortCode> {
         let _ = size;
         Ok(())
@@ -24,13 +24,13 @@ pub trait Sink {
 
 /// Has what a client writes.
 pub trait Source {
-    /// The number of bytes, if it is known: the server is told, and checks it.
+    /// The number of bytes, if it is known: it is sent to the server, which checks it.
     fn size(&self) -> Option<u32>;
 
     /// Copies bytes from an offset on; returns how many, 0 at the end. An offset may come again, when a segment was lost.
     ///
     /// # Errors
-    /// The transfer ends, and the server is told this code.
+    /// The transfer ends, and this code is sent to the server.
     fn copy(&mut self, offset: u32, buffer: &mut [u8]) -> Result<usize, AbortCode>;
 }
 

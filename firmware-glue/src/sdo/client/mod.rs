@@ -79,7 +79,7 @@ pub struct Step {
 pub enum Failure {
     /// The server refused or gave up.
     Server(AbortCode),
-    /// The client gave up, and tells the server: no answer in time, a wrong one, what the sink or the source says.
+    /// The client gave up, and informs the server: no answer in time, a wrong one, what the sink or the source says.
     Client(AbortCode),
 }
 
@@ -156,14 +156,14 @@ impl Line {
         Step { send: Some(self.frame(bytes)), outcome: None }
     }
 
-    /// Sends what nobody has asked for: the time for an answer begins anew.
+    /// Sends what was not asked for: the time for an answer begins anew.
     #[cfg(feature = "sdo-block")]
     pub(super) fn send_unasked(&mut self, bytes: [u8; 8], now: Instant) -> Step {
         self.heard = now;
         self.send_bytes(bytes)
     }
 
-    /// The server is told that it is over.
+    /// The server is informed that it is over.
     pub(super) fn abort(&self, code: AbortCode) -> Frame {
         self.frame(Aborted { id: self.id, code }.encode())
     }

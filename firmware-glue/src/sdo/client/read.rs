@@ -37,7 +37,7 @@ enum State {
     },
     #[cfg(feature = "sdo-block")]
     Blocks(Receiver),
-    /// The server cannot do checksums and was told that blocks are not wanted; segments are next.
+    /// The server cannot do checksums and was informed that blocks are not wanted; segments are next.
     #[cfg(feature = "sdo-block")]
     Again,
 }

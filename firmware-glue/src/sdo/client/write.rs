@@ -40,7 +40,7 @@ enum State {
     /// Everything came, and the server has to say what it thinks of it.
     #[cfg(feature = "sdo-block")]
     Ended,
-    /// The server cannot do checksums and was told that blocks are not wanted; segments are next.
+    /// The server cannot do checksums and was informed that blocks are not wanted; segments are next.
     #[cfg(feature = "sdo-block")]
     Again,
 }

@@ -7,7 +7,7 @@ use super::{
 use crate::abort::AbortCode;
 use crate::table::entry::EntryId;
 
-/// What a server sends, but for the segments of blocks.
+/// What a server sends, except the segments of blocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Answer {
@@ -61,7 +61,7 @@ pub enum Answer {
     },
     /// No more blocks.
     BlockUploadEnd {
-        /// How many bytes of the last segment are none.
+        /// How many bytes of the last segment are padding.
         unused: u8,
         /// The checksum; 0 if there is none.
         crc: u16,

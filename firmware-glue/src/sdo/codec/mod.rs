@@ -1,4 +1,4 @@
-//! The frames of SDO: the one place that knows their bits, for servers, clients and whoever listens (CiA 301 7.2.4.3).
+//! The frames of SDO: the one place that knows their bits, for servers, clients and listeners (CiA 301 7.2.4.3).
 //!
 //! Bits that the standard reserves are sent as 0 and not looked at.
 
@@ -59,7 +59,7 @@ impl Expedited {
         self.bytes.get(..usize::from(self.length.unwrap_or(4))).unwrap_or(&self.bytes)
     }
 
-    /// Of bits 0 to 3 of a command, and the four bytes behind the entry.
+    /// Of bits 0 to 3 of a command, and the four bytes after the entry.
     #[inline]
     const fn decode(command: u8, bytes: [u8; 4]) -> Self {
         let length = if command & SIZE == 0 { None } else { Some(4 - (command >> 2 & 3)) };
@@ -84,7 +84,7 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// The next piece of data: up to seven of the bytes, and whether nothing is behind them.
+    /// The next piece of data: up to seven of the bytes, and whether nothing follows them.
     pub(crate) fn first_of(data: &[u8]) -> Self {
         let mut bytes = [0; 7];
         bytes.iter_mut().zip(data).for_each(|(byte, new)| *byte = *new);
@@ -97,7 +97,7 @@ impl Piece {
         self.bytes.get(..usize::from(self.length)).unwrap_or(&self.bytes)
     }
 
-    /// The bytes with zeros behind them, as they stand in a frame.
+    /// The bytes with zeros after them, as they are in a frame.
     #[cfg(feature = "sdo-block")]
     pub(crate) const fn padded(&self) -> [u8; 7] {
         self.bytes
@@ -132,15 +132,15 @@ impl Segment {
     }
 }
 
-/// A segment of a block, which has no command: what it is follows from where it stands.
+/// A segment of a block, which has no command: what it is follows from where it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BlockSegment {
-    /// 1 to 127, from the beginning of the block; 0 is none.
+    /// 1 to 127, from the beginning of the block; 0 is not a number of a segment.
     pub sequence: u8,
     /// Whether the data end in it.
     pub last: bool,
-    /// Data; how many bytes of the last segment are some is told at the end of the transfer.
+    /// Data; how many bytes of the last segment are data is stated at the end of the transfer.
     pub bytes: [u8; 7],
 }
 

@@ -48,7 +48,7 @@ pub enum Request {
     },
     /// Ends writing in blocks.
     BlockDownloadEnd {
-        /// How many bytes of the last segment are none.
+        /// How many bytes of the last segment are padding.
         unused: u8,
         /// The checksum; 0 if there is none.
         crc: u16,
@@ -109,7 +109,8 @@ impl Request {
         })
     }
 
-    /// What a frame reads, if it is [`Self::Upload`]: what a server is asked most, told apart without building the request.
+    /// What a frame reads, if it is [`Self::Upload`]: what a server is asked most, recognized without building the
+    /// request.
     #[inline]
     #[expect(
         clippy::trivially_copy_pass_by_ref,

@@ -117,7 +117,7 @@ pub(super) fn write_expedited<'t, D: Dictionary<'t>, A: Application<D>>(
     }
 }
 
-/// Of four bytes that may all be the value or not, as many as the type has. How long a string is, nobody can tell.
+/// Of four bytes that may all be the value or not, as many as the type has. How long a string is, is unknown.
 fn unsized_value<'v>(shared: &Attributes, value: &'v Expedited) -> Result<&'v [u8], AbortCode> {
     let size = shared.data_type.size().ok_or(AbortCode::LENGTH)?;
     value.bytes().get(..usize::from(size)).ok_or(AbortCode::TOO_SHORT)

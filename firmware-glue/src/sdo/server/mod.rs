@@ -111,7 +111,7 @@ enum Phase {
     Ended,
 }
 
-/// An entry that may be read. One function for whoever is not in a hurry.
+/// An entry that may be read. One function for callers that are not in a hurry.
 #[inline(never)]
 fn find_to_upload<'t, D: Dictionary<'t>, A: Application<D>>(
     EntryId { index, sub }: EntryId,
@@ -186,7 +186,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
     }
 
     /// Takes a frame that was received, and gives the one to be sent. Frames with other identifiers,
-    /// remote frames and frames that do not have eight bytes are none of the server's business.
+    /// remote frames and frames that do not have eight bytes do not concern the server.
     ///
     /// Call it with everything that comes while the node is pre-operational or operational.
     #[inline]

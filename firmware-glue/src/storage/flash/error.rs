@@ -26,7 +26,7 @@ pub enum StoreError<E> {
     TooLarge,
     /// What was written is not what is read.
     NotVerified,
-    /// Values of a group follow the node-ID, and the group was not loaded, so that nobody knows whose they are.
+    /// Values of a group follow the node-ID, and the group was not loaded, so that it is unknown whose they are.
     NotLoaded,
 }
 

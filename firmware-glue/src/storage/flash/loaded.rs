@@ -1,4 +1,4 @@
-//! What a store tells about what it has loaded.
+//! What a store reports about what it has loaded.
 
 use crate::storage::flash::groups::PerGroup;
 use crate::table::Storage;
@@ -25,8 +25,8 @@ pub enum Outcome {
     Defaults,
     /// It has its stored values.
     Restored,
-    /// It has its stored values, but for those that an entry cannot have, as the firmware that stored them had other limits: they have the factory's. This is
-    /// the first of them.
+    /// It has its stored values, except those that an entry cannot have, as the firmware that stored them had other
+    /// limits: they have the factory's. This is the first of them.
     RestoredBut(EntryId),
     /// It has the factory's values, because the stored ones are of another layout.
     OtherLayout,

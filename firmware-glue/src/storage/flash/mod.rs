@@ -1,7 +1,7 @@
 //! Parameters that outlive a power failure: 1010h and 1011h (CiA 301 9.6.3) over any flash of the crate `embedded-storage`.
 //!
 //! The flash has two slots, each with a record of everything that is stored. A record is written as a whole, and counts once
-//! its checksum stands behind it; first into the slot that does not count, then, as a copy, into the other. So
+//! its checksum follows it; first into the slot that does not count, then, as a copy, into the other. So
 //!
 //! - whenever power fails, the next start finds the values of before or those of after, of all groups together;
 //! - a bit that flips, or a whole slot that is lost, costs nothing, as the other slot has the same;
@@ -21,7 +21,7 @@
 //! }
 //!
 //! impl<F: NorFlash> Drive<F> {
-//!     /// Two slots of 2 KiB, 48 KiB behind the beginning of the flash.
+//!     /// Two slots of 2 KiB, 48 KiB after the beginning of the flash.
 //!     fn new(flash: F) -> Result<Self, BadArea> {
 //!         Ok(Self { store: ParameterStore::new(flash, 0xC000, 2048)? })
 //!     }
@@ -325,7 +325,7 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         Ok(number)
     }
 
-    /// The newest intact record, but for a slot.
+    /// The newest intact record, except in a slot.
     fn newest(&mut self, but: Option<Slot>) -> Option<Newest> {
         let [first, second] = self.slots;
         let mut number = |slot| if but == Some(slot) { None } else { self.check(slot).ok() };
@@ -373,7 +373,7 @@ fn reset<'t, D: Dictionary<'t>>(dictionary: &mut D, node: NodeId, groups: &[Stor
     }
 }
 
-/// Puts right what entries cannot have of what was restored.
+/// Corrects what entries cannot have of what was restored.
 fn correct<'t, D: Dictionary<'t>>(dictionary: &mut D, node: NodeId, loaded: &mut Loaded) {
     for storage in STORED {
         if loaded.outcome(storage) == Outcome::Restored

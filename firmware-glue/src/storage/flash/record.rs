@@ -2,7 +2,7 @@
 //!
 //! A record begins a slot and is: four bytes that name the format, its number, sections, an end, the checksum of all before; numbers
 //! are little-endian. A section is a storage group (1 byte), the node-ID if its values follow it, else 0 (1 byte), two zeros, the layout number and the number of
-//! bytes of its values, and these. The checksum is written last, so that a record that was not finished is none.
+//! bytes of its values, and these. The checksum is written last, so that a record that was not finished is not valid.
 
 use embedded_storage::nor_flash::NorFlash;
 
@@ -50,7 +50,7 @@ pub(super) struct Slot {
 /// Why reading a record ended early.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Unreadable {
-    /// The flash does not give the bytes; after a power failure, some tell so of what was being written.
+    /// The flash does not give the bytes; after a power failure, some report this of what was being written.
     Flash,
     /// They are no record.
     NoRecord,
@@ -128,7 +128,7 @@ impl<const CHUNK: usize> Reader<CHUNK> {
         (0..length).try_for_each(|_| self.byte(flash).map(drop))
     }
 
-    /// Reads the checksum behind the end: whether every byte before it is as it was written.
+    /// Reads the checksum after the end: whether every byte before it is as it was written.
     pub(super) fn is_intact<F: NorFlash>(&mut self, flash: &mut F) -> Result<(), Unreadable> {
         let expected = self.crc.value();
         let stored = u32::from_le_bytes(self.array(flash)?);

@@ -14,9 +14,9 @@ use od_spec::model::{DataType, EntryId};
 use super::{Bus, BusError};
 use crate::restarts::{ERROR_CONTROL, Restart, Restarts};
 
-/// No entry of a dictionary is longer; who sends more is not believed.
+/// No entry of a dictionary is longer; a node that sends more is not believed.
 const LONGEST: usize = 16 << 20;
-/// So long at most nobody asks whether a transfer is late.
+/// The longest time between two checks whether a transfer is late.
 const NAP: Duration = Duration::from_millis(20);
 /// A node that has not sent anything for so long has nothing more to say.
 const QUIET: clock::Duration = clock::Duration::from_millis(20);
@@ -50,7 +50,7 @@ pub enum AccessError {
     Refused(AbortCode),
     /// The node says nothing, or nothing more.
     Silent,
-    /// What the node sends is no answer.
+    /// What the node sends is not an answer.
     Wrong(AbortCode),
     /// The node's answer has so many bytes, and not eight.
     Short(usize),
@@ -85,7 +85,7 @@ impl AccessError {
         )
     }
 
-    /// Whether nobody is there any more: another access is not worth a try.
+    /// Whether nothing answers any more: another access is not worth a try.
     pub const fn is_of_node(&self) -> bool {
         matches!(self, Self::Silent | Self::Bus(_))
     }
@@ -295,7 +295,7 @@ impl<B: Bus> Client<B> {
     /// Writes an entry of a node, once.
     ///
     /// # Errors
-    /// [`AccessError`]: refused by the node it has its old value; otherwise nobody knows which.
+    /// [`AccessError`]: refused by the node it has its old value; otherwise it is unknown which.
     pub fn write(&mut self, node: u8, id: EntryId, bytes: &[u8]) -> Result<(), AccessError> {
         let client = self.sdo(node)?;
         self.give(client, id, bytes)

@@ -1,4 +1,4 @@
-//! A bus behind a CAN adapter that speaks SLCAN.
+//! A bus reached through a CAN adapter that speaks SLCAN.
 
 use std::collections::VecDeque;
 use std::fmt;
@@ -27,7 +27,7 @@ const QUIET: Duration = Duration::from_millis(30);
 /// Bit rates in kbit/s, by the digit of their command.
 const BIT_RATES: [u16; 9] = [10, 20, 50, 100, 125, 250, 500, 800, 1000];
 
-/// A bus behind an adapter, whose channel is open for as long as it lives.
+/// A bus reached through an adapter, whose channel is open for as long as it lives.
 #[derive(Debug)]
 pub struct SlcanBus<P: Port = TcpStream> {
     stream: P,
@@ -99,7 +99,7 @@ impl<P: Port> SlcanBus<P> {
             start: Instant::now(),
             manner: Manner::Answers,
         };
-        // Whoever was there before may have left it open; one that is closed may refuse.
+        // An earlier client may have left it open; one that is closed may refuse.
         let patience = match bus.stream.manner() {
             Manner::Answers => PATIENCE,
             Manner::MayBeSilent => FIRST,
@@ -206,8 +206,8 @@ impl<P: Port> Bus for SlcanBus<P> {
 
 impl<P: Port> Drop for SlcanBus<P> {
     fn drop(&mut self) {
-        // Who is gone has nothing to say about it any more. One that is closed with answers unread is reset, and the adapter may lose
-        // what was sent last: it is told the end, and heard to its own.
+        // A client that is gone cannot report this any more. A connection that is closed with answers unread is reset,
+        // and the adapter may lose what was sent last: it is closed, and its last frames are read.
         let until = Instant::now() + FAREWELL;
         let _ = self.stream.write_all(b"C\r").and_then(|()| self.stream.finish());
         while Instant::now() < until {

@@ -1,7 +1,8 @@
 //! A client of the nodes on a bus: reads and writes their entries by SDO, and commands them by NMT.
 //!
-//! A [`Bus`] is whatever takes frames and gives them, a clock included; [`SlcanBus`] is one behind a CAN adapter that is reached by a stream of
-//! bytes. [`Client`] does one access after the other, [`involved`] and [`plan`] tell what is to be read and written.
+//! A [`Bus`] is whatever takes frames and gives them, a clock included; [`SlcanBus`] is one reached through a CAN
+//! adapter that is reached by a stream of bytes. [`Client`] does one access after the other, [`involved`] and [`plan`]
+//! list what is to be read and written.
 
 mod access;
 mod link;
@@ -40,7 +41,7 @@ pub trait Bus {
     /// The next frame that others sent; `None` when there is none for so long.
     ///
     /// # Errors
-    /// [`BusError`]: there will be none any more.
+    /// [`BusError`]: no more frames will come.
     fn receive(&mut self, within: Duration) -> Result<Option<Frame>, BusError>;
 
     /// Microseconds from any beginning.

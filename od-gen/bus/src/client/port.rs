@@ -1,4 +1,4 @@
-//! Streams of bytes behind which a CAN adapter is.
+//! Streams of bytes to a CAN adapter.
 
 use std::fmt;
 use std::io::{self, Read, Write};
@@ -29,10 +29,10 @@ pub trait Port: Read + Write + fmt::Debug {
     fn manner(&self) -> Manner;
 }
 
-/// What the adapter behind a stream does with commands.
+/// What the adapter at the end of a stream does with commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Manner {
-    /// It answers each: who does not is no adapter.
+    /// It answers each: a device that does not is not an adapter.
     Answers,
     /// It may carry them out in silence, as the firmware of some serial adapters does.
     MayBeSilent,

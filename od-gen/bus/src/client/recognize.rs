@@ -30,10 +30,10 @@ pub struct Contradiction {
     pub stated: u32,
 }
 
-/// What is to be said of a node, beside what is stated of it.
+/// What is to be said of a node, in addition to what is stated of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Remark {
-    /// It does not tell, or tells as 0, its revision or serial number, which is stated.
+    /// It does not report, or reports as 0, its revision or serial number, which is stated.
     Untold(EntryId),
     /// It has a higher minor revision: it can do more, and the rest as stated.
     Newer(Contradiction),
@@ -45,7 +45,7 @@ pub enum Remark {
 /// dictionary says they are. On another device, revision and serial number say nothing.
 ///
 /// # Errors
-/// [`AccessError`], except for a number that the node refuses to tell.
+/// [`AccessError`], except for a number that the node refuses to report.
 pub fn recognize<B: Bus>(
     client: &mut Client<B>,
     node: u8,
@@ -88,7 +88,7 @@ pub enum Revision {
     Newer,
     /// It is another one.
     Other,
-    /// The node does not tell it.
+    /// The node does not report it.
     Untold,
 }
 

@@ -1,12 +1,12 @@
-//! What is to be read beside the values of a node, and what has to be written to give it others.
+//! What is to be read in addition to the values of a node, and what has to be written to give it others.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::model::{DataType, Dictionary, Entry, EntryId, EntryRef, NoSuchValue, System, Value, Write};
 use od_spec::{Commissioning, ParameterValues};
 
-/// The entries whose values decide, beside those that are to be written, whether these can be written: what constraints ask for
-/// that name one of them, and their conditions for writing.
+/// The entries whose values decide, in addition to those that are to be written, whether these can be written: what
+/// constraints ask for that name one of them, and their conditions for writing.
 pub fn involved(system: &System, device: &Dictionary, written: &BTreeSet<EntryId>) -> BTreeSet<EntryId> {
     let holder = |id: EntryId| {
         device.entry(id).and_then(|entry| entry.alias.as_ref()).map_or(id, |alias| alias.target)
@@ -40,8 +40,8 @@ pub fn involved(system: &System, device: &Dictionary, written: &BTreeSet<EntryId
     found
 }
 
-/// The entries that rules look at beside those that are to be written: the [involved] ones, and with a communication object all
-/// others, as the rules about PDOs, COB-IDs and times compare these.
+/// The entries that rules look at in addition to those that are to be written: the [involved] ones, and with a
+/// communication object all others, as the rules about PDOs, COB-IDs and times compare these.
 pub fn judged(system: &System, device: &Dictionary, written: &BTreeSet<EntryId>) -> BTreeSet<EntryId> {
     let mut judged = involved(system, device, written);
     if written.iter().any(|id| id.index.is_communication_profile()) {

@@ -9,7 +9,7 @@ use od_spec::model::{Dictionary, EntryId, Index, SubIndex, Value};
 
 use super::{AccessError, Bus, BusError, Client};
 
-/// A node-ID at which somebody was heard.
+/// A node-ID at which a node was heard.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Heard {
@@ -33,7 +33,7 @@ pub enum Answer {
     Two,
 }
 
-/// Device type (1000h), identity (1018h) and name (1008h); what a node does not have or does not tell is open.
+/// Device type (1000h), identity (1018h) and name (1008h); what a node does not have or does not report is open.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Identity {
@@ -60,7 +60,7 @@ const PRODUCT: EntryId = id(0x1018, 2);
 const NAME: EntryId = id(0x1008, 0);
 pub(super) const REVISION: EntryId = id(0x1018, 3);
 pub(super) const SERIAL: EntryId = id(0x1018, 4);
-/// What tells devices apart.
+/// What distinguishes devices.
 const TELLING: [EntryId; 3] = [DEVICE_TYPE, VENDOR, PRODUCT];
 
 const fn id(index: u16, sub: u8) -> EntryId {
@@ -92,7 +92,8 @@ impl Identity {
             && (self.name.is_none() || device.name.is_none() || self.name == device.name)
     }
 
-    /// The numbers by which a dictionary tells a device from others. Vendor or product 0 says that nobody knows it.
+    /// The numbers by which a dictionary distinguishes a device from others. Vendor or product 0 means that it is
+    /// unknown.
     pub(super) fn stated(&self) -> impl Iterator<Item = (EntryId, u32)> {
         TELLING.into_iter().filter_map(|id| {
             let number = self.number(id)?;

@@ -8,10 +8,10 @@ use serial2::{SerialPort, Settings};
 
 use super::port::{Manner, Port};
 
-/// So long an adapter needs to be through with half a line of somebody else.
+/// The time that an adapter needs to discard half a line of an earlier user.
 const SETTLING: Duration = Duration::from_millis(50);
 
-/// A serial port with an adapter behind it: 8 bits, no parity, no flow control.
+/// A serial port with an adapter: 8 bits, no parity, no flow control.
 #[derive(Debug)]
 pub struct Serial(SerialPort);
 
@@ -26,7 +26,7 @@ impl Serial {
             settings.set_baud_rate(baud)?;
             Ok(settings)
         })?;
-        // Whoever had the port before may have left half a line in the adapter, and frames in the system.
+        // An earlier user of the port may have left half a line in the adapter, and frames in the system.
         port.write_all(b"\r")?;
         std::thread::sleep(SETTLING);
         port.discard_input_buffer()?;
@@ -56,7 +56,7 @@ impl Port for Serial {
     }
 
     fn wait_at_most(&mut self, time: Duration) -> io::Result<()> {
-        // A timeout of 0 milliseconds would be none at all.
+        // A timeout of 0 milliseconds would not be a timeout.
         self.0.set_read_timeout(time.max(Duration::from_millis(1)))
     }
 

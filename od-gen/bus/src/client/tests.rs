@@ -58,7 +58,7 @@ fn compiled(specification: &str) -> System {
     compiled.system.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
 }
 
-/// Virtual nodes, and a time that passes while nobody says anything.
+/// Virtual nodes, and a time that passes while nothing is sent.
 struct Virtual<'t> {
     bus: runtime::Bus<'t>,
     heard: VecDeque<Frame>,
@@ -119,7 +119,7 @@ fn entries_are_read_and_written_whatever_their_length() {
 }
 
 #[test]
-fn refusals_and_silence_are_told_apart() {
+fn refusals_and_silence_are_distinguished() {
     with_lamps(|_, client| {
         let refused = client.write(5, id(0x2004), &[1]).unwrap_err();
         assert!(matches!(refused, AccessError::Refused(AbortCode::DEVICE_STATE)), "{refused}");
@@ -127,7 +127,7 @@ fn refusals_and_silence_are_told_apart() {
         let silent = client.read(7, id(0x2000)).unwrap_err();
         assert!(matches!(silent, AccessError::Silent), "{silent}");
         assert!(!silent.is_of_entry());
-        // A frame that came twice is no word about the entry.
+        // A frame that came twice is not a word about the entry.
         let confused = [AbortCode::TOGGLE_BIT, AbortCode::COMMAND, AbortCode::SEQUENCE, AbortCode::CRC];
         assert!(confused.into_iter().all(|code| !AccessError::Refused(code).is_of_entry()));
         assert!(AccessError::Refused(AbortCode::OUT_OF_MEMORY).is_of_entry());
@@ -357,7 +357,7 @@ impl Bus for Shared<'_> {
 
 #[test]
 fn two_devices_with_one_node_id_answer_every_time() {
-    // Somebody else may ask the node at the same time, once.
+    // Another client may ask the node at the same time, once.
     for (twice, is_shared) in [(1, false), (usize::MAX, true)] {
         with_lamps(|_, client| {
             let Virtual { bus, .. } = client.bus();
@@ -377,7 +377,7 @@ struct Dirty<'t, F> {
     /// What becomes of the answer that is the first, the second …
     becomes: F,
     answers: usize,
-    /// Requests of a client, but for aborts.
+    /// Requests of a client, except aborts.
     requests: usize,
 }
 
@@ -489,7 +489,7 @@ fn an_answer_without_a_size_has_the_length_of_the_type() {
         assert_eq!(client.read(5, id(0x2003)).unwrap(), [1, 0, 0, 0]);
         assert_eq!(client.read_as(5, id(0x2002), DataType::VisibleString).unwrap(), b"A lamp of glass");
     });
-    // A length that the node tells counts.
+    // A length that the node states counts.
     with_lamps(|_, client| {
         assert_eq!(client.read_as(5, id(0x2000), DataType::Unsigned8).unwrap(), [20, 0]);
     });
@@ -544,7 +544,7 @@ fn a_node_that_obeys_the_client_does_not_start_again() {
         client.write(5, heartbeat, &[10, 0]).unwrap();
         for command in [1, 128] {
             client.command(command, 5).unwrap();
-            // Nobody starts; heartbeats are heard.
+            // No node is started; heartbeats are heard.
             assert!(!client.booted(5, Duration::from_millis(50)).unwrap());
         }
         assert_eq!(client.restarted(5).unwrap(), None);

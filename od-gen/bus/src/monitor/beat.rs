@@ -16,7 +16,7 @@ const PATIENCE: u64 = 2;
 pub(super) struct Beat {
     /// The last state, and when it came.
     last: Option<(u8, u64)>,
-    /// Microseconds between heartbeats, the last one behind.
+    /// Microseconds between heartbeats, the last one at the end.
     distances: VecDeque<u64>,
     kind: Kind,
 }
@@ -28,7 +28,7 @@ enum Kind {
     Beating,
     /// It has not come in time.
     Lost,
-    /// A master asks for it: nobody else knows when.
+    /// A master asks for it: the time is not known otherwise.
     Guarded,
 }
 
@@ -75,7 +75,7 @@ impl Beat {
         if was_lost {
             self.kind = Kind::Beating;
         }
-        // Behind a boot-up the first heartbeat comes when it likes, and so does a node that was away.
+        // After a boot-up the first heartbeat may come at any time, and so does a node that was away.
         let Some((_, at)) = before.filter(|(before, _)| *before != 0 && state != 0 && !was_lost) else {
             if state == 0 || was_lost {
                 self.distances.clear();

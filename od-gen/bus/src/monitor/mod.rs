@@ -1,4 +1,4 @@
-//! A bus as somebody sees it who watches it: what changes, in words, which nodes are there, and whose heartbeat is lost.
+//! A bus as an observer sees it: what changes, in words, which nodes are there, and whose heartbeat is lost.
 //!
 //! It neither sends nor waits: frames and times go in, in microseconds from any beginning, and lines come out.
 
@@ -16,16 +16,16 @@ use crate::restarts::{ERROR_CONTROL, Restarts};
 use crate::slcan::CanFrame;
 use crate::trace::{Decoder, Service, Told, What};
 
-/// What is told.
+/// What is reported.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Shows {
     /// How much.
     pub detail: Detail,
-    /// Of which services; none of them named stands for all.
+    /// Of which services; none of them named means all.
     pub only: BTreeSet<Service>,
 }
 
-/// How much is told of what goes on all the time.
+/// How much is reported of what goes on all the time.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Detail {
     /// What changes: a heartbeat with another state, a PDO with other values. SYNC and TIME only where they are asked for.
@@ -40,7 +40,7 @@ pub enum Detail {
 pub struct Monitor<'a> {
     decoder: Decoder<'a>,
     shows: Shows,
-    /// What was told of an identifier last; asking for it is something else.
+    /// What was reported of an identifier last; asking for it is something else.
     last: BTreeMap<(u16, Asked), String>,
     nodes: BTreeMap<u8, Watched>,
     restarts: Restarts,
@@ -89,7 +89,7 @@ impl<'a> Monitor<'a> {
         }
     }
 
-    /// Takes note of a value that somebody has read from a node: identifiers and mappings follow.
+    /// Takes note of a value that was read from a node: identifiers and mappings follow.
     pub fn learn(&mut self, node: u8, entry: EntryId, bytes: &[u8]) {
         self.decoder.learn(node, entry, bytes);
         let learnt = &mut self.nodes.entry(node).or_default().learnt;
@@ -104,7 +104,7 @@ impl<'a> Monitor<'a> {
         outdated.map(|(node, _)| self.name(*node))
     }
 
-    /// Takes what is on the bus; the lines that tell it.
+    /// Takes what is on the bus; the lines that report it.
     pub fn take(&mut self, what: &What, now: u64) -> Vec<String> {
         self.frames += 1;
         let told = self.decoder.told(what);

@@ -31,7 +31,7 @@ fn lamp() -> System {
     compiled.system.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
 }
 
-/// A monitor with what it told.
+/// A monitor with what it reported.
 struct Watching<'a> {
     monitor: Monitor<'a>,
     told: Vec<String>,
@@ -59,7 +59,7 @@ impl<'a> Watching<'a> {
 }
 
 #[test]
-fn what_changes_is_told() {
+fn what_changes_is_reported() {
     let system = lamp();
     let mut watching = Watching::new(&system, Shows::default());
     watching.hear(10, 0x705, &[0]);
@@ -120,7 +120,7 @@ fn a_heartbeat_that_does_not_come_is_lost_and_comes_back() {
 }
 
 #[test]
-fn a_node_that_never_says_anything_is_told_once() {
+fn a_node_that_never_says_anything_is_reported_once() {
     let system = lamp();
     let mut watching = Watching::new(&system, Shows::default());
     watching.wait(60_000);
@@ -146,7 +146,7 @@ fn a_delayed_heartbeat_and_one_that_is_asked_for_are_not_lost() {
 }
 
 #[test]
-fn what_is_told_can_be_chosen() {
+fn what_is_reported_can_be_chosen() {
     let system = lamp();
     let only = BTreeSet::from([Service::Sync, Service::Emergency]);
     let mut watching = Watching::new(&system, Shows { detail: Detail::Changes, only });

@@ -18,7 +18,7 @@ impl<'t> Bus<'t> {
         Self { nodes }
     }
 
-    /// Takes a frame of somebody else; returns it and what answers it.
+    /// Takes a frame of another participant; returns it and what answers it.
     pub fn take(&mut self, frame: Frame, now: u64) -> Vec<Frame> {
         self.spread(VecDeque::from([(None, frame)]), now)
     }

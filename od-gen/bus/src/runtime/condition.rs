@@ -11,7 +11,7 @@ pub(super) struct Condition {
     alternatives: Vec<Vec<Compare>>,
 }
 
-/// A comparison of two sums; where a divisor is 0 it is undecided, which counts for whoever asks.
+/// A comparison of two sums; where a divisor is 0 it is undecided, which counts as allowed for the client that asks.
 #[derive(Debug, Clone)]
 struct Compare {
     left: Sum,

@@ -12,13 +12,13 @@ use super::LiveDictionary;
 use super::programs::Programs;
 
 /// What a virtual node checks of a value beyond what its dictionary says. A firmware chooses, too: it gives its services the application, or
-/// the application behind [`firmware_glue::Consistent`].
+/// the application inside [`firmware_glue::Consistent`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Checks {
     /// Nothing.
     #[default]
     None,
-    /// That no constraint breaks that held before; a client is told [`AbortCode::INCOMPATIBLE`].
+    /// That no constraint breaks that held before; a client gets [`AbortCode::INCOMPATIBLE`].
     Constraints,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Host {
     stored: BTreeMap<Storage, Stored>,
     /// The node that the values of a group in the dictionary are for.
     nodes: BTreeMap<Storage, NodeId>,
-    /// Entries that were written and not yet told.
+    /// Entries that were written and not yet reported.
     changed: Vec<EntryId>,
     has_restarted: bool,
     checks: Checks,
@@ -116,7 +116,7 @@ impl Application<LiveDictionary<'_>> for Host {
     }
 
     fn changed(&mut self, dictionary: &mut LiveDictionary<'_>, entry: EntryId) {
-        // A command is no value.
+        // A command is not a value.
         self.programs.tell(dictionary);
         self.changed.push(entry);
     }

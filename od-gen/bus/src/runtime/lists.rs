@@ -177,7 +177,7 @@ impl Lists<'_> {
     ///
     /// # Errors
     /// [`TableError`]: a rule that the lists break. That of a plan break none; it is looked at all the same, because nothing
-    /// but this table stands between a client and the values.
+    /// but this table is between a client and the values.
     pub fn table(&self) -> Result<Table<'_>, TableError> {
         let device = self.device;
         Table::checked(Parts {

@@ -27,8 +27,8 @@ pub use self::lists::{Device, Lists};
 pub use self::node::{NoNode, VirtualNode};
 
 /// The lists of a device. What no dictionary can have (more than 16 MiB of values, numbers that leave 64 bits) is reported, and
-/// nothing comes out. Nobody sees the names that code would have, so none of them is too few or too many; a text without a
-/// capacity gets that of an EDS: its default, and at least 32 bytes.
+/// nothing comes out. The names that code would have are not visible, so none of them is too few or too many; a text
+/// without a capacity gets that of an EDS: its default, and at least 32 bytes.
 pub fn device(system: &System, device: &model::Dictionary, diagnostics: &mut Diagnostics) -> Option<Device> {
     let device = decided_anyhow(device, &Rust);
     let mut found = Diagnostics::new();
@@ -100,7 +100,7 @@ impl<'t> LiveDictionary<'t> {
         constraints.all(|one| one.holds(&|row| with.number(row)) || !one.holds(&|row| self.number(row)))
     }
 
-    /// The number in a row as a condition sees it: 0 for what is no number, and for what an alias cannot show.
+    /// The number in a row as a condition sees it: 0 for what is not a number, and for what an alias cannot show.
     fn number(&self, row: Row) -> i128 {
         let shared = self.values.table().attributes(row);
         self.values.held(row).map_or(0, |value| condition::number(shared.data_type, &value))

@@ -21,11 +21,12 @@ const ERRORS: usize = 256;
 /// As many nodes as 1016h can have sub-indices.
 const WATCHED: usize = 254;
 
-/// A virtual node. Frames go in, frames come out, and the time is told, in microseconds from any beginning.
+/// A virtual node. Frames go in, frames come out, and the time is given, in microseconds from any beginning.
 ///
 /// It is [`firmware_glue::Node`], with everything that this has: boot-up, the states of NMT, heartbeat and guarding, the nodes of 1016h, PDOs, SYNC,
-/// emergencies, LSS (where the device has it) and the first SDO server. A firmware with more SDO servers (1201h to 127Fh) runs them beside its node, as each needs a
-/// buffer of its own; so does this node, on every channel that its dictionary has when it boots.
+/// emergencies, LSS (where the device has it) and the first SDO server. A firmware with more SDO servers (1201h to
+/// 127Fh) runs them in addition to its node, as each needs a buffer of its own; so does this node, on every channel
+/// that its dictionary has when it boots.
 ///
 /// Parameters are stored and restored (1010h, 1011h) for as long as the program runs. That a value was written that an
 /// event-driven TPDO carries, by SDO, by an RPDO or by [`set`](Self::set), is an event of that TPDO.
@@ -42,7 +43,7 @@ pub struct VirtualNode<'t> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum NoNode {
-    /// The node-ID is none.
+    /// The node-ID is not valid.
     NodeId,
     /// The dictionary has more PDOs, or watches more nodes, than CANopen.
     Room(NoRoom),
@@ -145,7 +146,7 @@ impl<'t> VirtualNode<'t> {
         Ok(())
     }
 
-    /// An error of the device occurs: it stands in 1001h and 1003h, and an emergency message tells of it.
+    /// An error of the device occurs: it is in 1001h and 1003h, and an emergency message reports it.
     pub fn raise(&mut self, emergency: Emergency, now: u64) -> Raised {
         let raised = self.node.raise(&mut self.dictionary, emergency);
         self.error_register_changed(now);

@@ -11,7 +11,7 @@ pub enum Heard {
     Done,
     /// The command was refused.
     Refused,
-    /// A version, a serial number, or what is no line of SLCAN.
+    /// A version, a serial number, or what is not a line of SLCAN.
     Other,
 }
 
@@ -28,7 +28,7 @@ impl Host {
         Self { line: String::new(), is_too_long: false }
     }
 
-    /// Takes a byte; tells what it completes.
+    /// Takes a byte; returns what it completes.
     pub fn take(&mut self, byte: u8) -> Option<Heard> {
         if REFUSED.contains(&byte) {
             self.begin();
@@ -40,7 +40,7 @@ impl Host {
                 self.begin();
                 Some(heard)
             }
-            // Some send it behind the end of a line.
+            // Some send it after the end of a line.
             b'\n' => None,
             _ if self.line.len() >= LONGEST => {
                 self.is_too_long = true;
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn answers_and_frames_are_told_apart() {
+    fn answers_and_frames_are_distinguished() {
         let frame = CanId::new(0x705).and_then(|id| Frame::data(id, &[0])).map(CanFrame::Standard).unwrap();
         assert_eq!(
             all(b"\rz\r\x07t705100\rV1010\r\nZ\rt70510012AB\r"),

@@ -74,7 +74,7 @@ pub enum TimeStamps {
     On,
 }
 
-/// Why a line is no command, or no frame.
+/// Why a line is not a command or not a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
     /// It begins with no letter of a command.
@@ -93,7 +93,7 @@ impl Fault {
         match self {
             Fault::Command => "a command of SLCAN, such as `t1810`",
             Fault::Digits => "as many hexadecimal digits as the command needs",
-            Fault::Identifier => "an identifier up to 7FF, or behind `T` and `R` up to 1FFFFFFF",
+            Fault::Identifier => "an identifier up to 7FF, or after `T` and `R` up to 1FFFFFFF",
             Fault::Length => "a length from 0 to 8",
         }
     }
@@ -136,10 +136,10 @@ pub fn command(line: &str) -> Result<Command, Fault> {
     }
 }
 
-/// A frame as a line, without its end, and the time stamp behind it: milliseconds within a minute.
+/// A frame as a line, without its end, and the time stamp after it: milliseconds within a minute.
 ///
 /// # Errors
-/// [`Fault`]: it is none.
+/// [`Fault`]: it is not a frame.
 pub fn frame(line: &str) -> Result<(CanFrame, Option<u16>), Fault> {
     let Some((kind, rest)) = line.split_at_checked(1) else { return Err(Fault::Command) };
     let (id_digits, highest, is_remote) = match kind {
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn commands_are_told_apart() {
+    fn commands_are_distinguished() {
         for (line, expected) in [
             ("O", Ok(Command::Open)),
             ("L", Ok(Command::Listen)),

@@ -22,7 +22,7 @@ impl Asc {
         }
     }
 
-    /// Reads a line behind the first one.
+    /// Reads a line after the first one.
     pub(super) fn read<'l>(&mut self, line: &'l str) -> Result<Line<'l>, BadLine> {
         let words: Vec<&str> = line.split_whitespace().collect();
         let Some(first) = words.first() else { return Ok(Line::Empty) };
@@ -55,7 +55,7 @@ impl Asc {
             _ => {}
         }
         let [direction, kind, rest @ ..] = rest else {
-            return Err(bad(line, id, "an identifier with `Rx` or `Tx`, `d` or `r`, and a length behind it"));
+            return Err(bad(line, id, "an identifier with `Rx` or `Tx`, `d` or `r`, and a length after it"));
         };
         if !matches!(*direction, "Rx" | "Tx" | "TxRq") {
             return Err(bad(line, direction, "`Rx` or `Tx`"));
@@ -88,7 +88,7 @@ impl Asc {
         is_all.then(|| u32::from_str_radix(digits, self.radix).ok()).flatten()
     }
 
-    /// An identifier; an `x` behind it makes it one of 29 bits.
+    /// An identifier; an `x` after it makes it one of 29 bits.
     fn identifier(&self, line: &str, word: &str) -> Result<Identifier, BadLine> {
         let wrong = || bad(line, word, self.identifier_expected());
         if let Some(digits) = word.strip_suffix('x') {
@@ -101,7 +101,7 @@ impl Asc {
 
     fn identifier_expected(&self) -> String {
         let base = if self.radix == 16 { "hexadecimal" } else { "decimal" };
-        format!("an identifier in {base}, with an `x` behind it where it has 29 bits")
+        format!("an identifier in {base}, with an `x` after it where it has 29 bits")
     }
 }
 

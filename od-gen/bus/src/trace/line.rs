@@ -7,7 +7,7 @@ use crate::slcan::{self, CanFrame};
 /// A line of a trace.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Line<'l> {
-    /// Nothing, or a comment behind `#` or `;`.
+    /// Nothing, or a comment after `#` or `;`.
     Empty,
     /// Something on the bus.
     Seen(Seen<'l>),
@@ -48,11 +48,11 @@ const ERROR: u32 = 1 << 29;
 /// Reads a line of a trace that has no lines about itself, without its end:
 ///
 /// - `(1700000000.123456) can0 181#0102`, the log of `candump -L`; `181#R4` is a remote frame,
-/// - `can0  181   [2]  01 02`, with or without a time before and a text behind: what `candump` prints,
+/// - `can0  181   [2]  01 02`, with or without a time before and a text after: what `candump` prints,
 /// - `t181201020A5F`, a frame of SLCAN with or without a time stamp.
 ///
 /// # Errors
-/// [`BadLine`]: it is none of these.
+/// [`BadLine`]: it is not one of these.
 pub(super) fn read(line: &str) -> Result<Line<'_>, BadLine> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let Some(first) = words.first() else { return Ok(Line::Empty) };
@@ -158,7 +158,7 @@ fn log<'l>(line: &str, words: &[&'l str], at: usize) -> Result<Seen<'l>, BadLine
     if let Some(behind) = words.get(at + 1)
         && (!matches!(*behind, "R" | "T") || words.len() > at + 2)
     {
-        return Err(bad(line, behind, "nothing behind the frame but its direction, `R` or `T`"));
+        return Err(bad(line, behind, "nothing after the frame except its direction, `R` or `T`"));
     }
     let id = identifier(line, id)?;
     if content.starts_with('#') {
@@ -171,7 +171,7 @@ fn log<'l>(line: &str, words: &[&'l str], at: usize) -> Result<Seen<'l>, BadLine
             _ => return Err(bad(line, length, "the length of a remote frame, 0 to 8")),
         },
         None => Content::Data(pairs(content).ok_or_else(|| {
-            bad(line, word, "up to eight bytes of two hexadecimal digits behind `#`, or `R` and a length")
+            bad(line, word, "up to eight bytes of two hexadecimal digits after `#`, or `R` and a length")
         })?),
     };
     let what = id.with(&content).ok_or_else(|| bad(line, word, "up to eight bytes"))?;
@@ -235,7 +235,7 @@ pub(super) fn two_digits(word: &str) -> Result<u8, &'static str> {
     byte.ok_or("a byte of two hexadecimal digits")
 }
 
-/// The place behind the last word of a line.
+/// The place after the last word of a line.
 pub(super) fn end(line: &str) -> &str {
     &line[line.trim_end().len()..]
 }
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_place() {
+    fn what_is_wrong_is_reported_with_its_place() {
         for (line, at) in [
             ("can0 1811#00", 5..9),
             ("can0 800#00", 5..8),

@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn requests_and_answers_are_told_apart() {
+    fn requests_and_answers_are_distinguished() {
         for (bytes, asked, answered) in [
             (&[17, 0][..], "set node-ID 0", "node-ID taken"),
             (&[17, 1], "set node-ID 1", "node-ID refused: out of range"),
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_of_fastscan_tells_bit_part_and_next() {
+    fn a_step_of_fastscan_reports_bit_part_and_next() {
         let step = |bit, of, next| request(&[81, 0x34, 0x12, 0, 0, bit, of, next]);
         assert_eq!(step(128, 0, 0), "Fastscan: begin anew");
         assert_eq!(step(5, 0, 1), "Fastscan: vendor-ID 0x00001234, down to bit 5; next product code");

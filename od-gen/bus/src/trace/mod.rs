@@ -1,7 +1,7 @@
 //! Frames of a bus in words: what each says, by the dictionaries of the nodes.
 //!
 //! The identifiers and mappings of PDOs are the defaults of the devices, and follow what clients write in the trace. What
-//! belongs to no node that is known is told as such, and never left out.
+//! belongs to no node that is known is reported as such, and never left out.
 
 mod asc;
 mod line;
@@ -67,7 +67,7 @@ impl Told {
     }
 }
 
-/// Tells what frames say, one after the other.
+/// Reports what frames say, one after the other.
 #[derive(Debug)]
 pub struct Decoder<'a> {
     nodes: Vec<Node<'a>>,
@@ -84,7 +84,7 @@ impl<'a> Decoder<'a> {
         &self.nodes
     }
 
-    /// Takes note of what a node has, beside what the trace shows.
+    /// Takes note of what a node has, in addition to what the trace shows.
     pub fn learn(&mut self, node: u8, entry: EntryId, bytes: &[u8]) {
         if let Some(known) = self.nodes.iter_mut().find(|known| known.id == node) {
             known.accept(entry.index.0, entry.sub.0, bytes);
@@ -172,7 +172,7 @@ impl<'a> Decoder<'a> {
 
     /// Whether an identifier is that of a service which all nodes share: that of the nodes which say so, or else the usual one.
     fn is_shared(&self, id: u16, index: u16, usual: u16) -> bool {
-        // Bits 30 and 31 tell who sends and who takes it.
+        // Bits 30 and 31 show who sends and who takes it.
         let stated = |node: &Node<'_>| {
             let cob_id = node.parameter(index, 0).filter(|cob_id| cob_id & 1 << 29 == 0)?;
             u16::try_from(cob_id & 0x7FF).ok()
@@ -268,7 +268,7 @@ impl<'a> Decoder<'a> {
     }
 }
 
-/// The service, its name and the node that an identifier belongs to as long as nobody changes it (CiA 301 table 36).
+/// The service, its name and the node that an identifier belongs to as long as it is not changed (CiA 301 table 36).
 fn predefined(id: u16) -> Option<(Service, &'static str, u8)> {
     let node = u8::try_from(id & 0x7F).ok().filter(|node| *node > 0)?;
     let (service, name) = match id & 0x780 {

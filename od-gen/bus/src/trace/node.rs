@@ -67,7 +67,7 @@ impl<'a> Node<'a> {
         u32::try_from(default.integer_for(self.id)?).ok()
     }
 
-    /// A parameter as the trace shows it; nothing where it is as specified, as far as anybody knows.
+    /// A parameter as the trace shows it; nothing where it is as specified, as far as is known.
     pub(crate) fn seen(&self, index: u16, sub: u8) -> Option<u32> {
         self.written.get(&EntryId { index: Index(index), sub: SubIndex(sub) }).copied()
     }
@@ -139,8 +139,8 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// A value in words: in its unit, by its name, with the bits that it sets and the state that it tells; bytes where the type
-    /// has no such value.
+    /// A value in words: in its unit, by its name, with the bits that it sets and the state that it shows; bytes where
+    /// the type has no such value.
     pub fn value(&self, id: EntryId, bytes: &[u8]) -> String {
         let object = self.device.objects.get(&id.index);
         let found = object.and_then(|object| Some((object, object.entry(id.sub)?)));
@@ -223,7 +223,7 @@ objects:
   0x2002: {name: letters, type: unicode-string, capacity: 8, access: rw}
 ";
 
-    /// What a decoder of the lamp, as node 5, tells of some frames.
+    /// What a decoder of the lamp, as node 5, reports of some frames.
     fn told(frames: &[(u16, &[u8])]) -> Vec<String> {
         let mut sources = SourceMap::new();
         let root = sources.add("lamp.od.yaml", LAMP);
@@ -250,7 +250,7 @@ objects:
     }
 
     #[test]
-    fn commands_of_1010h_and_1011h_are_told_as_such() {
+    fn commands_of_1010h_and_1011h_are_reported_as_such() {
         assert_eq!(
             told(&[
                 (0x605, &[0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']),

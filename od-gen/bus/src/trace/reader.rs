@@ -10,7 +10,7 @@ use super::trc::Trc;
 /// - `.trc` of PCAN-View and PCAN-Explorer, versions 1.0 to 2.1,
 /// - `.asc` of CANalyzer and CANoe.
 ///
-/// The lines about the file, with which the last two begin, tell how the others are to be read.
+/// The lines about the file, with which the last two begin, state how the others are to be read.
 #[derive(Debug, Default)]
 pub struct Reader {
     format: Format,

@@ -34,7 +34,7 @@ fn abort(node: &Node<'_>, transfer: &mut Transfer, bytes: [u8; 8]) -> String {
     format!("abort {}: {}", node.entry(id_of(bytes)), AbortCode(number(bytes)))
 }
 
-/// The bytes of an expedited transfer; where their number is not told, as many as the type of the entry has.
+/// The bytes of an expedited transfer; where their number is not stated, as many as the type of the entry has.
 fn expedited<'b>(node: &Node<'_>, bytes: &'b [u8; 8]) -> &'b [u8] {
     let told = 4 - usize::from(bytes[0] >> 2 & 3);
     let of_type = || {
@@ -45,7 +45,7 @@ fn expedited<'b>(node: &Node<'_>, bytes: &'b [u8; 8]) -> &'b [u8] {
     &bytes[4..4 + count]
 }
 
-/// `12 bytes`, where it is told.
+/// `12 bytes`, where it is stated.
 fn size(bytes: [u8; 8], is_told: bool) -> String {
     if is_told {
         format!(", {}", count(usize::try_from(number(bytes)).unwrap_or(usize::MAX)))

@@ -1,4 +1,4 @@
-//! The services beside PDO and SDO: NMT, SYNC, TIME, EMCY, error control, LSS.
+//! The services other than PDO and SDO: NMT, SYNC, TIME, EMCY, error control, LSS.
 
 use od_formats::nmt;
 use od_spec::model::{EntryId, ErrorCode, Index, SubIndex};
@@ -122,13 +122,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_time_is_told_by_day_and_hour() {
+    fn a_time_is_shown_by_day_and_hour() {
         assert_eq!(time(&[0xE0, 0x93, 0x04, 0x00, 2, 1]), "day 258 since 1984-01-01, 00:05:00.000");
         assert_eq!(time(&[0]), "1 byte where TIME has 6");
     }
 
     #[test]
-    fn a_sentence_ends_behind_its_point() {
+    fn a_sentence_ends_after_its_point() {
         assert_eq!(first_sentence("24.5 V are too low. Charge."), "24.5 V are too low");
         assert_eq!(first_sentence("no point"), "no point");
     }

@@ -34,7 +34,7 @@ pub(super) enum Last {
     Yes,
 }
 
-/// Segments of a block that nobody has confirmed yet.
+/// Segments of a block that are not yet confirmed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Block {
     /// They come, up to a number of them.

@@ -10,10 +10,10 @@ pub(super) struct Trc {
     columns: Vec<Column>,
 }
 
-/// What stands in a column.
+/// What is in a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Column {
-    /// Number, time, bus, direction and what is reserved: shown as they stand.
+    /// Number, time, bus, direction and what is reserved: shown as they are.
     Other,
     /// Of version 2: what kind of line it is.
     Type,
@@ -43,7 +43,7 @@ impl Trc {
         Ok(Some(Self { columns: columns.to_vec() }))
     }
 
-    /// Reads a line behind that of the version.
+    /// Reads a line after that of the version.
     pub(super) fn read<'l>(&mut self, line: &'l str) -> Result<Line<'l>, BadLine> {
         if let Some(columns) = line.trim().strip_prefix(";$COLUMNS=") {
             self.columns = columns.split(',').map(|letter| column(line, letter)).collect::<Result<_, _>>()?;
@@ -60,7 +60,7 @@ impl Trc {
         let head: Vec<&str> = head.map(|(_, word)| *word).collect();
         let (kind, id) = (word(if at(Type).is_some() { Type } else { Direction }), word(Id));
         match kind {
-            // States and counters of the adapter are no frames.
+            // States and counters of the adapter are not frames.
             "Warng" | "ST" | "EC" | "EV" => return Ok(Line::Empty),
             "Error" | "ER" => return Ok(Line::Seen(Seen { head, what: What::Error })),
             _ if id == "FFFFFFFF" => return Ok(Line::Empty),

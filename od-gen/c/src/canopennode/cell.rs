@@ -59,7 +59,7 @@ impl Cell {
         }
     }
 
-    /// The type of the variable, without what stands behind its name.
+    /// The type of the variable, without what follows its name.
     pub(super) fn type_name(self) -> String {
         match self {
             Self::Boolean => "bool_t".to_owned(),
@@ -72,7 +72,7 @@ impl Cell {
         }
     }
 
-    /// What stands behind the name of the variable: `[9]`.
+    /// What follows the name of the variable: `[9]`.
     pub(super) fn dimension(self) -> String {
         match self {
             Self::Boolean | Self::Integer(_) | Self::Real32 | Self::Real64 => String::new(),
@@ -82,7 +82,7 @@ impl Cell {
     }
 }
 
-/// Bytes that a string has room for. What never changes needs as many as it has, and so do bytes of which nobody
+/// Bytes that a string has room for. What never changes needs as many as it has, and so do bytes of which no one
 /// says how many there can be: the stack knows no shorter ones.
 fn room(entry: &Entry) -> u32 {
     let length =

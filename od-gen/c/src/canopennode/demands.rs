@@ -1,4 +1,5 @@
-//! What the stack demands of a dictionary: told here, with the object and what to do, and not by a compiler that stops in the stack's own files.
+//! What the stack demands of a dictionary: reported here, with the object and what to do, and not by a compiler that
+//! stops in the stack's own files.
 
 use od_spec::diag::{Code, Diagnostic, Diagnostics, codes};
 use od_spec::model::{Access, DataType, Dictionary, Direction, EntryId, Index, Object, PdoTarget, SubIndex};
@@ -12,7 +13,7 @@ const MOST_MAPPED: usize = 8;
 /// Elements of 1016h that the stack counts.
 const MOST_CONSUMERS: usize = 127;
 
-/// Tells everything that the stack would stumble over.
+/// Reports everything that the stack could not handle.
 pub(super) fn check(device: &Dictionary, objects: &[StackObject<'_>], diagnostics: &mut Diagnostics) {
     let mut findings = Findings { device, diagnostics };
     findings.needed();
@@ -26,7 +27,7 @@ pub(super) fn check(device: &Dictionary, objects: &[StackObject<'_>], diagnostic
     findings.octets(objects);
 }
 
-/// Tells which rules are not kept, as the stack extends the objects itself.
+/// Reports which rules are not kept, as the stack extends the objects itself.
 pub(super) fn left_to_stack(device: &Dictionary, entries: &[EntryId], diagnostics: &mut Diagnostics) {
     for id in entries {
         let Some(entry) = device.entry(*id) else { continue };
@@ -169,7 +170,7 @@ impl Findings<'_, '_> {
                 if !self.has(missing) {
                     are_whole = false;
                     let message = format!(
-                        "{} {} has {} and no {}: CANopenNode would take the objects of another PDO for it",
+                        "{} {} has {} and no {}: CANopenNode would use the objects of another PDO instead",
                         direction.pdo(),
                         place + 1,
                         Index(there),
@@ -208,7 +209,7 @@ impl Findings<'_, '_> {
                 highest + 1,
                 numbers.len()
             );
-            let help = "nothing is to be done, unless the application calls PDOs by number: the stack's numbers are places in the list";
+            let help = "do nothing, unless the application calls PDOs by number: the stack's numbers are places in the list";
             let span = span(first + highest, self.device);
             self.tell(codes::STACK_DIFFERS, span, message, help);
         }
@@ -271,7 +272,8 @@ impl Findings<'_, '_> {
                     "{} ({}) always has {} bytes for CANopenNode, which knows no shorter OCTET_STRING",
                     slot.id, entry.name, slot.length
                 );
-                let help = "nothing is to be done where all bytes are always used; else let the application have it, as a DOMAIN";
+                let help =
+                    "do nothing if all bytes are always used; else leave it to the application, as a DOMAIN";
                 self.tell(codes::STACK_DIFFERS, entry.span, message, help);
             }
         }
@@ -281,7 +283,7 @@ impl Findings<'_, '_> {
     fn identifiers(&mut self) {
         for (id, entry) in node_id::changed_by_stack(self.device) {
             let message = format!(
-                "{id} ({}) is the same for every node, and CANopenNode adds the node-ID to it, as it is a base of the pre-defined connection set",
+                "{id} ({}) is the same for every node, and CANopenNode adds the node-ID to it, because it is a base of the pre-defined connection set",
                 entry.name
             );
             self.tell(

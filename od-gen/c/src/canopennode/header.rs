@@ -12,7 +12,7 @@ use super::docs::Docs;
 use super::groups::{AUTOMATIC, COMMAND, Group, GroupStorage, RESTORE};
 use super::objects::{Shape, Slot, StackObject, groups_of};
 
-/// What stands between the lines that keep the file from being read twice.
+/// What is between the lines that keep the file from being read twice.
 pub(super) fn print(text: &mut Text, docs: Docs<'_, '_>, objects: &[StackObject<'_>]) {
     text.comment("Include `301/CO_ODinterface.h` of the stack before this file: it defines the types.");
     text.gap();
@@ -184,7 +184,7 @@ fn entries(text: &mut Text, objects: &[StackObject<'_>]) {
     }
     text.gap();
     text.comment("Objects of the dictionary, with their names.");
-    // No two are equal: the index stands in each.
+    // No two are equal: the index is in each.
     let names: BTreeMap<usize, String> = objects
         .iter()
         .enumerate()

@@ -17,7 +17,7 @@ pub(super) fn initialiser(id: EntryId, entry: &Entry, cell: Cell) -> String {
     let literal = match cell {
         Cell::Boolean => Integer { signed: false, bits: 8 }.literal(number(1).into()),
         Cell::Integer(integer) => integer_literal(id, entry, integer, number(usize::from(integer.bits / 8))),
-        // A number that is none is no default.
+        // A number that is not valid is not a default.
         Cell::Real32 => {
             let number = f32::from_le_bytes(bytes.first_chunk().copied().unwrap_or_default());
             real32(number.into()).unwrap_or_else(|| "0.0F".to_owned())
@@ -56,7 +56,7 @@ fn integer_literal(id: EntryId, entry: &Entry, integer: Integer, bits: u64) -> S
     integer.literal(if is_negative { value - (1 << integer.bits) } else { value })
 }
 
-/// Bytes behind which everything is zero.
+/// Bytes after which everything is zero.
 fn list(items: impl Iterator<Item = String>) -> String {
     let items: Vec<String> = items.collect();
     if items.is_empty() { "{0U}".to_owned() } else { format!("{{{}}}", items.join(", ")) }

@@ -1,7 +1,7 @@
 //! C for CANopenNode v4: `OD.h` and `OD.c` as the stack expects them.
 //!
 //! Names, counters, attributes and layouts are the stack's; what it has no place for, limits, values, locks, write conditions and other views, is in
-//! the extension beside them. The stack's own files are not needed to make these.
+//! the extension in addition to them. The stack's own files are not needed to make these.
 
 mod attributes;
 mod cell;

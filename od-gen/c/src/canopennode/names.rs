@@ -1,5 +1,5 @@
 //! Names as the stack's own exporter makes them, so that firmware that was written for its files finds them again: `COB-ID SYNC message` is
-//! `COB_ID_SYNCMessage`. Where that exporter lets names clash, the sub-index tells them apart.
+//! `COB_ID_SYNCMessage`. Where that exporter lets names clash, the sub-index distinguishes them.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use od_spec::model::{Entry, Object};
 
 use super::super::language::is_reserved;
 
-/// The name of an object, which stands behind `x1005_`.
+/// The name of an object, which follows `x1005_`.
 pub(super) fn of_object(object: &Object) -> String {
     let name = camel(object.label());
     if name.is_empty() { "object".to_owned() } else { name }
@@ -43,8 +43,8 @@ pub(super) fn of_members(entries: &[Entry]) -> Vec<String> {
     }
 }
 
-/// Words become one: each begins with a capital, but for the first one, unless it is all capitals. A `-` becomes `_`, and another `_` stands before and
-/// behind a number, and between two capitals that come to stand side by side.
+/// Words become one: each begins in upper case, except the first one, unless it is all upper case. A `-` becomes `_`,
+/// and another `_` is put before and after a number, and between two upper-case letters that come to be adjacent.
 fn camel(name: &str) -> String {
     let name = transliterate(name).replace('-', "_");
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';

@@ -10,7 +10,7 @@ use super::names;
 /// An object and its values.
 pub(super) struct StackObject<'a> {
     pub object: &'a Object,
-    /// Behind the index: `deviceType`.
+    /// After the index: `deviceType`.
     pub name: String,
     pub shape: Shape<'a>,
 }
@@ -131,7 +131,7 @@ impl<'a> Slot<'a> {
     fn of(object: &'a Object, entry: &'a Entry, member: String, group_of_rest: Option<Storage>) -> Self {
         let id = EntryId { index: object.index, sub: entry.sub };
         let cell = Cell::of(entry);
-        // What tells the shape of an object lies with the object.
+        // What describes the shape of an object is with the object.
         let tells_shape = object.is_structured() && entry.sub == SubIndex(0) && entry.stored == Storage::No;
         let storage = group_of_rest.filter(|_| tells_shape).unwrap_or(entry.stored);
         let memory = match cell {
@@ -166,7 +166,7 @@ impl<'a> Slot<'a> {
     }
 }
 
-/// What stores the entries behind sub-index 0, where one command stores all of them.
+/// What stores the entries after sub-index 0, where one command stores all of them.
 fn group_of_rest(object: &Object) -> Option<Storage> {
     let (first, rest) =
         object.counted().map(|entry| entry.stored).fold((None, true), |(first, same), stored| {

@@ -59,7 +59,7 @@ impl Number {
     }
 }
 
-/// Bytes of a number; 0 of what is none.
+/// Bytes of a number; 0 for anything else.
 pub(super) fn size(data_type: DataType) -> u8 {
     data_type.bits().and_then(|bits| u8::try_from(bits.div_ceil(8)).ok()).unwrap_or(0)
 }

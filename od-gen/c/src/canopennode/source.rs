@@ -6,9 +6,9 @@ use super::groups::Group;
 use super::initial::initialiser;
 use super::objects::{Memory, Shape, Slot, StackObject, groups_of};
 
-/// Everything behind the head of the file.
+/// Everything after the head of the file.
 pub(super) fn print(text: &mut Text, objects: &[StackObject<'_>]) {
-    text.comment("The stack shows the types of objects to who defines them.");
+    text.comment("The stack shows the types of objects only to files that define this.");
     text.line("#define OD_DEFINITION");
     text.line("#include \"301/CO_ODinterface.h\"");
     text.line("#include \"OD.h\"");

@@ -13,7 +13,7 @@ use super::rules::{LISTED, LOCKED, NONE, Number, Rule, Rules, size};
 const I64: Integer = Integer { signed: true, bits: 64 };
 const U64: Integer = Integer { signed: false, bits: 64 };
 
-/// Everything behind the head of the file.
+/// Everything after the head of the file.
 pub(super) fn print(
     text: &mut Text,
     plan: &Plan<'_>,
@@ -28,7 +28,7 @@ pub(super) fn print(
         text.gap();
         let left: Vec<String> = rules.left_to_stack.iter().map(EntryId::to_string).collect();
         text.comment(&format!(
-            "Not here, as the stack extends these objects itself: the rules of {}.",
+            "Not here, because the stack extends these objects itself: the rules of {}.",
             left.join(", ")
         ));
     }

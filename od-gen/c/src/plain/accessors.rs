@@ -1,4 +1,4 @@
-//! Functions that read and write single entries, from inside the device: no access, lock or limit stands in the way.
+//! Functions that read and write single entries, from inside the device: no access, lock or limit is applied.
 
 use od_gen::plan::{Place, PlannedEntry, PlannedObject, ValueKind, default_integer, is_accessible};
 use od_spec::model::Outside;
@@ -59,7 +59,7 @@ fn getter(page: &mut Page<'_, '_>, entry: &PlannedEntry<'_>, raw: Raw, value: Op
     });
 }
 
-/// A setter; of a width that C does not have, one that tells whether the value fits.
+/// A setter; of a width that C does not have, one that returns whether the value fits.
 fn setter(page: &mut Page<'_, '_>, entry: &PlannedEntry<'_>, raw: Raw, store: Option<String>) {
     let Some(store) = store else { return };
     let name = function(page, &["set", &entry.name], entry);
@@ -96,7 +96,7 @@ fn set_string(page: &mut Page<'_, '_>, entry: &PlannedEntry<'_>) {
     });
 }
 
-/// What shows another entry. One that may have nothing to show tells so.
+/// What shows another entry. One that may have nothing to show returns so.
 fn view(page: &mut Page<'_, '_>, entry: &PlannedEntry<'_>, raw: Raw) {
     let plan = page.plan;
     let row = plan.row(entry.id);
@@ -138,8 +138,8 @@ fn view(page: &mut Page<'_, '_>, entry: &PlannedEntry<'_>, raw: Raw) {
     }
 }
 
-/// What reads and writes an element by its sub-index, where all are alike and lie one behind the other. False for a sub-index that there is not, or
-/// a value that does not fit.
+/// What reads and writes an element by its sub-index, where all are alike and lie one after the other. False for a
+/// sub-index that there is not, or a value that does not fit.
 pub(super) fn of_elements(page: &mut Page<'_, '_>, planned: &PlannedObject<'_>) {
     let elements: Vec<_> = page.plan.entries_of(planned).filter(|entry| entry.id.sub.0 > 0).collect();
     let Some(first) = elements.first() else { return };

@@ -14,7 +14,7 @@ pub(super) fn entries(page: &mut Page<'_, '_>) {
     page.text.gap();
     page.text.comment(
         "Entries: ENTRY is the row in the table, by which the application is asked; DEFAULT, LOW and HIGH are raw values. \
-         What the device itself sets is held against no limit.",
+         What the device itself sets is not checked against the limits.",
     );
     for object in &plan.objects {
         object_of(page, object);

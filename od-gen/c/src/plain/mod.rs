@@ -32,7 +32,7 @@ pub(super) fn file(names: &Names, ending: &str) -> String {
     format!("{}_od.{ending}", names.device())
 }
 
-/// What stands between the lines that keep the header from being read twice.
+/// What is between the lines that keep the header from being read twice.
 pub(super) fn header(page: &mut Page<'_, '_>) {
     page.text.line("#include \"OD_types.h\"");
     page.text.line("#include \"od_runtime.h\"");
@@ -131,14 +131,14 @@ fn calls(page: &mut Page<'_, '_>) {
             "restore",
             format!("{write}, uint8_t storage, uint32_t layout, const uint8_t *bytes, size_t length"),
             format!("od_restore(&{table}, od->image, storage, layout, bytes, length)"),
-            "Takes back the bytes of a storage group, which `od_stored` of the table tells, if they are of this layout.",
+            "Takes back the bytes of a storage group, which `od_stored` of the table gives, if they are of this layout.",
         ),
         (
             "bool",
             "correct_stored",
             format!("{write}, uint8_t storage, uint8_t node_id, od_row_t *first"),
             format!("od_correct_stored(&{table}, od->image, storage, node_id, first)"),
-            "Puts right what a group has that its entries cannot have any more; true, and the first of them, if there was any.",
+            "Corrects what a group has that its entries cannot have any more; true, and the first of them, if there was any.",
         ),
         (
             "uint32_t",
@@ -203,7 +203,7 @@ fn calls(page: &mut Page<'_, '_>) {
     }
 }
 
-/// A function that stands in the header.
+/// A function in the header.
 fn inline(text: &mut Text, returned: &str, name: &str, parameters: &[&str], body: impl FnOnce(&mut Text)) {
     let returned = if returned.ends_with('*') { returned.to_owned() } else { format!("{returned} ") };
     text.signature(&format!("static inline {returned}{name}"), parameters);

@@ -279,7 +279,7 @@ impl Lists<'_> {
         for (at, planned) in plan.constraints.iter().enumerate() {
             let PlannedConstraint { name, when, require, partial, .. } = planned;
             let when = when.as_ref().map(|when| format!(", while {}", when.text)).unwrap_or_default();
-            let partial = if *partial { " Only what can be told from this device." } else { "" };
+            let partial = if *partial { " Only what can be known from this device." } else { "" };
             let about = format!("{name}: {}{when}.{partial}", require.text);
             let function = format!("constraint_{at}");
             self.function(

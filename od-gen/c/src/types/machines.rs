@@ -15,7 +15,7 @@ pub(super) fn machines(page: &mut Page<'_, '_>) {
     heading(
         page,
         "State machines: a word shows a state, or gives a command, where (word & MASK) == VALUE. Of a command that edges give, \
-         VALUE has the level behind the edge, RISING and FALLING have the bits that must change. SEND is a word that gives it.",
+         VALUE has the level after the edge, RISING and FALLING have the bits that must change. SEND is a word that gives it.",
     );
     for planned in &plan.machines {
         let (Some(status), Some(command)) = (plan.entry(planned.status), plan.entry(planned.command)) else {

@@ -10,10 +10,10 @@ use od_spec::model::ErrorCode;
 use super::literal::Integer;
 use super::page::Page;
 
-/// The name of the file, beside the dictionary's.
+/// The name of the file, in addition to the dictionary's.
 pub(super) const FILE: &str = "OD_types.h";
 
-/// What stands between the lines that keep the file from being read twice.
+/// What is between the lines that keep the file from being read twice.
 pub(super) fn print(page: &mut Page<'_, '_>) {
     page.text.line("#include <stdint.h>");
     values::named_types(page);
@@ -48,7 +48,7 @@ fn errors(page: &mut Page<'_, '_>) {
     }
 }
 
-/// Conditions that firmware keeps between its entries, for whoever reads the code.
+/// Conditions that firmware keeps between its entries, for readers of the code.
 fn constraints(page: &mut Page<'_, '_>) {
     let plan = page.plan;
     if plan.constraints.is_empty() {

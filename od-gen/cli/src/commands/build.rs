@@ -37,7 +37,7 @@ pub(crate) struct BuildArgs {
     #[arg(long, value_name = "ID")]
     pub node: Option<String>,
 
-    /// Also an XDD of each device (CiA 311), `xdd/KEY.xdd`, and an XDC beside each DCF
+    /// Also an XDD of each device (CiA 311), `xdd/KEY.xdd`, and an XDC next to each DCF
     #[arg(long)]
     pub xdd: bool,
 
@@ -179,7 +179,7 @@ fn left_from_before(args: &BuildArgs, set: &[Artifact]) -> Result<String, WriteE
     /// So many files are named.
     const NAMED: usize = 5;
     let mut left = left_over(&args.out, set)?;
-    // A build makes a DCF beside the EDS of its device, and an XDC beside its XDD; any other is one of `odgen dcf`.
+    // A build makes a DCF next to the EDS of its device, and an XDC next to its XDD; any other is one of `odgen dcf`.
     left.retain(|path| {
         let path = args.out.join(path);
         let beside = |ending: &str| path.with_extension(ending).exists();

@@ -35,7 +35,7 @@ pub(crate) fn run(args: &DbcArgs, directory: &Path, report: &Report) -> u8 {
     dbc(args, directory, report).unwrap_or_else(|code| code)
 }
 
-/// Writes the DBC of the nodes, and tells what it does not hold.
+/// Writes the DBC of the nodes, and reports what it does not hold.
 fn dbc(args: &DbcArgs, directory: &Path, report: &Report) -> Result<u8, u8> {
     let bus = BusNodes::read(&args.nodes, directory, report)?;
     let nodes: Vec<Node<'_>> = bus.iter().map(|(id, system, device)| Node { id, system, device }).collect();
@@ -50,7 +50,7 @@ fn dbc(args: &DbcArgs, directory: &Path, report: &Report) -> Result<u8, u8> {
         report.note(&format!("left out: {left_out}"));
     }
     for silent in written.silent.values() {
-        report.note(&format!("no messages, as nothing is sent until somebody sets them up: {silent}"));
+        report.note(&format!("no messages, because nothing is sent until it is set up: {silent}"));
     }
     let line = format!(
         "  {}  {} kB  {}, {}, {}\n",

@@ -58,7 +58,8 @@ pub(crate) struct DcfArgs {
     #[arg(long, value_name = "MODULE", value_delimiter = ',')]
     pub modules: Vec<String>,
 
-    /// Parameter file (YAML) of the node, with values by name and in units; of several, a later one is laid over the earlier ones
+    /// Parameter file (YAML) of the node, with values by name and in units; of several, a later one overrides the
+    /// earlier ones
     #[arg(long, value_name = "FILE")]
     pub params: Vec<PathBuf>,
 
@@ -70,11 +71,12 @@ pub(crate) struct DcfArgs {
     #[arg(long, value_name = "FILE")]
     pub set_file: Vec<PathBuf>,
 
-    /// Locked entry that may be set all the same: factory data, which the device takes only while it is unlocked for service
+    /// Locked entry that may be set anyway: factory data, which the device takes only while it is unlocked for service
     #[arg(long, value_name = "ENTRY")]
     pub unlock: Vec<String>,
 
-    /// Write no file; tell what is written into the node at boot, by a PLC that creates all SDOs, with a concise DCF, and by a configuration tool
+    /// Write no file; report what is written into the node at boot, by a PLC that creates all SDOs, with a concise DCF,
+    /// and by a configuration tool
     #[arg(long)]
     pub explain: bool,
 
@@ -86,11 +88,11 @@ pub(crate) struct DcfArgs {
     #[arg(long, short, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
-    /// Also the concise DCF for the master's object 1F22h, beside the DCF with the ending `.bin`
+    /// Also the concise DCF for the master's object 1F22h, next to the DCF with the ending `.bin`
     #[arg(long)]
     pub concise: bool,
 
-    /// Also the same as an XDC (CiA 311), beside the DCF with the ending `.xdc`
+    /// Also the same as an XDC (CiA 311), next to the DCF with the ending `.xdc`
     #[arg(long)]
     pub xdc: bool,
 
@@ -206,7 +208,7 @@ fn count_of(count: usize, what: &str) -> String {
     format!("{count} value{} {what}", if count == 1 { "" } else { "s" })
 }
 
-/// The concise DCF beside the DCF, and the line that tells of it.
+/// The concise DCF next to the DCF, and the line that reports it.
 fn concise(
     system: &System,
     device: &Dictionary,
@@ -290,7 +292,7 @@ fn layer(
     Ok(layer)
 }
 
-/// One setting on each line. Behind a value there is no comment: it would be a part of a text.
+/// One setting on each line. There is no comment after a value: it would be a part of a text.
 fn of_file(path: &Path, sources: &mut SourceMap) -> Result<Vec<Spanned<String>>, Box<Diagnostic>> {
     let help = "check the path; a file of settings has one `ENTRY=VALUE` on each line";
     let id = open(path, help, sources)?;

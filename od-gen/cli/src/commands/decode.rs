@@ -31,7 +31,7 @@ pub(crate) struct DecodeArgs {
 
 /// So many lines that cannot be read are shown of a trace, and the others counted.
 const SHOWN: usize = 20;
-/// No line of a trace is longer; what is, is none of a trace.
+/// No line of a trace is longer; what is, does not belong to a trace.
 const LONGEST_LINE: usize = 4096;
 
 pub(crate) fn run(args: &DecodeArgs, directory: &Path, report: &Report) -> u8 {
@@ -68,7 +68,7 @@ fn trace(name: &str, mut from: impl BufRead, decoder: &mut Decoder<'_>, report: 
             Ok(None) => break,
             Ok(Some(length)) => length,
             Err(error) => {
-                let message = format!("cannot read {name} behind line {number}: {error}");
+                let message = format!("cannot read {name} after line {number}: {error}");
                 return Err(report.refuse(Diagnostic::without_place(codes::UNREADABLE, message)));
             }
         };
@@ -105,7 +105,7 @@ fn trace(name: &str, mut from: impl BufRead, decoder: &mut Decoder<'_>, report: 
 }
 
 /// Lines that end with a line feed, with both, or, as those of an SLCAN adapter do, with a carriage return alone. One ends as soon as
-/// its end is there, also behind a pipe, and no more of it is kept than a line has.
+/// its end is there, also of a pipe, and no more of it is kept than a line has.
 #[derive(Default)]
 struct Lines {
     last: Last,
@@ -127,7 +127,7 @@ enum Length {
 }
 
 impl Lines {
-    /// The next line, without its end; `None` behind the last one.
+    /// The next line, without its end; `None` after the last one.
     fn next(&mut self, from: &mut impl BufRead, line: &mut Vec<u8>) -> std::io::Result<Option<Length>> {
         line.clear();
         let (mut length, mut is_begun) = (Length::Whole, false);
@@ -163,7 +163,7 @@ impl Lines {
     }
 }
 
-/// Shows a line that cannot be read. A trace may be endless, so that nobody keeps it: lines before this one stand empty.
+/// Shows a line that cannot be read. A trace may be endless, so it is not kept: lines before this one are empty.
 fn complain(name: &str, number: usize, line: &str, fault: &BadLine, report: &Report) {
     let mut sources = SourceMap::new();
     let end = (0..=LONGEST_LINE.min(line.len())).rev().find(|at| line.is_char_boundary(*at)).unwrap_or(0);

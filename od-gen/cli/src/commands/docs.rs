@@ -39,11 +39,12 @@ pub(crate) struct DocsArgs {
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub format: Vec<DocsFormat>,
 
-    /// With `--format print`: mark where the manual differs from the issue that it takes the place of, and list the errata behind it
+    /// With `--format print`: mark where the manual differs from the issue that it replaces, and list the
+    /// errata after it
     #[arg(long)]
     pub errata: bool,
 
-    /// Directory with templates of your own, which are laid over those of the format
+    /// Directory with templates of your own, which override those of the format
     #[arg(long, value_name = "DIR")]
     pub templates: Option<PathBuf>,
 
@@ -150,6 +151,6 @@ fn export(args: &DocsArgs, target: &Path, report: &Report) -> u8 {
             purpose: "template".to_owned(),
         })
         .collect();
-    // What is there may be templates that somebody has changed.
+    // What is there may be templates that a user has changed.
     write(target, &set, forced(args.force, Existing::None), "", report)
 }

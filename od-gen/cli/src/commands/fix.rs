@@ -27,7 +27,7 @@ pub(crate) struct FixArgs {
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
 
-    /// Print what changes, as a unified diff with the codes of what it puts right [default, unless --write is given]
+    /// Print what changes, as a unified diff with the codes of what it fixes [default, unless --write is given]
     #[arg(long)]
     pub diff: bool,
 
@@ -93,7 +93,7 @@ fn read(path: &PathBuf) -> Result<File, Box<Diagnostic>> {
 }
 
 impl File {
-    /// What changes, each part with the codes of what it puts right.
+    /// What changes, each part with the codes of what it fixes.
     fn diff(&self) -> String {
         let text = self.fixed.text();
         let (old, new): (Vec<&str>, Vec<&str>) =
@@ -129,7 +129,7 @@ impl File {
         self.fixed.changes.iter().map(|change| (line(change.place.start), change.code)).collect()
     }
 
-    /// Tells people what was put right, and what they have to decide.
+    /// Reports what was fixed, and what the user has to decide.
     fn tell(&self, written: bool, report: &Report) {
         let mut left = self.fixed.left.clone();
         left.soften();
@@ -149,7 +149,7 @@ impl File {
     fn summary(&self, written: bool) -> String {
         let counts = self.fixed.counts();
         if counts.is_empty() {
-            return format!("{}: there is nothing to put right without guessing", visible(&self.name));
+            return format!("{}: there is nothing to fix without guessing", visible(&self.name));
         }
         let places = self.fixed.changes.len();
         let (plural, would) = match (places, written) {
@@ -158,7 +158,7 @@ impl File {
             (_, true) => ("s", "were"),
             (_, false) => ("s", "would be"),
         };
-        let mut text = format!("{}: {places} place{plural} {would} put right", visible(&self.name));
+        let mut text = format!("{}: {places} place{plural} {would} fixed", visible(&self.name));
         for (code, count) in counts {
             let _ = write!(text, "\n  {count:>5}  {code}  {}", code.title);
         }
@@ -191,7 +191,7 @@ fn print_lines(op: &DiffOp, old: &[&str], new: &[&str], out: &mut String) {
 
 /// The codes of the changes in some lines.
 fn codes_of(changed: &[(usize, &'static Code)], lines: &Range<usize>) -> BTreeSet<&'static Code> {
-    // Lines that are only taken out leave a change at the line behind them.
+    // Lines that are only taken out leave a change at the line after them.
     let end = lines.end.max(lines.start + 1);
     let from = changed.partition_point(|(line, _)| *line < lines.start);
     let to = changed.partition_point(|(line, _)| *line < end);

@@ -21,7 +21,7 @@ pub(crate) struct FmtArgs {
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
 
-    /// Change nothing; name the files that are laid out otherwise, and fail if there is one
+    /// Change nothing; name the files that are laid out differently, and fail if there is one
     #[arg(long)]
     pub check: bool,
 
@@ -102,7 +102,7 @@ fn laid_out(path: &Path) -> Result<Option<String>, Refused> {
 /// For editors: what comes in goes out in its layout.
 fn standard_input(args: &FmtArgs, report: &Report) -> u8 {
     if let [_, _, ..] = args.files.as_slice() {
-        let message = "`-` stands for standard input, and stands alone";
+        let message = "`-` means standard input, and is used alone";
         return report
             .refuse(Diagnostic::without_place(codes::UNKNOWN_WORD, message).help("name `-`, or files"));
     }

@@ -9,7 +9,7 @@ use crate::report::Report;
 
 #[derive(Debug, Args)]
 pub(crate) struct LspArgs {
-    /// Standard input and output; editors say it, and there is nothing else
+    /// Use standard input and output, as editors ask for; there is no other way
     #[arg(long)]
     pub stdio: bool,
 }

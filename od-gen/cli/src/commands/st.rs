@@ -50,7 +50,7 @@ pub(crate) fn run(args: &StArgs, directory: &Path, report: &Report) -> u8 {
     st(args, directory, report).unwrap_or_else(|code| code)
 }
 
-/// Writes the files of all devices, and tells what they do not hold.
+/// Writes the files of all devices, and reports what they do not hold.
 fn st(args: &StArgs, directory: &Path, report: &Report) -> Result<u8, u8> {
     let node =
         args.node.as_deref().map(node_id).transpose().map_err(|diagnostic| report.refuse(diagnostic))?;

@@ -18,7 +18,7 @@ pub(crate) fn names_plant(path: &Path) -> bool {
 
 /// What is said of a machine where there is no plant.
 pub(crate) fn no_plant(path: &Path, help: &'static str) -> Diagnostic {
-    let message = format!("{} is no plant file, and only a plant has machines", shown(path));
+    let message = format!("{} is not a plant file, and only a plant has machines", shown(path));
     Diagnostic::without_place(codes::BAD_NOTATION, message).help(help)
 }
 

@@ -161,7 +161,7 @@ fn what_would_not_compile_is_refused_by_check_as_by_build() {
 }
 
 #[test]
-fn names_that_code_cannot_tell_apart_are_told_once_and_where_they_stand() {
+fn names_that_code_cannot_distinguish_are_reported_once_and_where_they_are() {
     let scratch = Scratch::new("alike");
     let errors = "errors:\n  0xFF01..0xFF08: {name: lamp broken}\n";
     scratch.file("lamp.od.yaml", format!("{LAMP}{errors}"));

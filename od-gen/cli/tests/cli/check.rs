@@ -21,7 +21,7 @@ fn check_says_when_all_is_well() {
     }
 }
 
-/// What departs from a standard is no mistake; people are told how much there is, and get the list when they ask.
+/// What departs from a standard is not a mistake; users see the number, and get the list when they ask.
 #[test]
 fn departures_from_a_standard_are_notes() {
     let scratch = Scratch::new("notes");
@@ -117,7 +117,7 @@ fn the_summary_counts_what_can_be_repaired() {
     assert_eq!(repairs(FAN).as_deref(), Some("1 of them"));
     assert_eq!(repairs(&one).as_deref(), Some("it"));
     assert_eq!(repairs(&one.replace(word, "DefaultValue=0")), None);
-    // What stands in no list of objects may be a finding of its own, so only the number is looked at.
+    // What is in no list of objects may be a finding of its own, so only the number is looked at.
     assert!(repairs(&(one + &more(3))).is_some());
 }
 

@@ -65,7 +65,7 @@ fn a_directory_is_searched_through_and_through() {
     assert!(said.contains("\n4 files: 3 errors, 4 warnings, "), "{said}");
     assert!(
         said.ends_with(
-            "; most frequent: EDS406 in 3 files, EDS506 in 3 files, EDS701 in 1 file; `odgen explain EDS406` tells more\n"
+            "; most frequent: EDS406 in 3 files, EDS506 in 3 files, EDS701 in 1 file; `odgen explain EDS406` says more\n"
         ),
         "{said}"
     );
@@ -85,7 +85,7 @@ fn a_directory_is_searched_through_and_through() {
 
 /// Files take different times, and are worked on side by side.
 #[test]
-fn many_files_are_told_in_their_order() {
+fn many_files_are_reported_in_their_order() {
     let scratch = Scratch::new("many");
     let mut names = Vec::new();
     for number in 0..40 {
@@ -99,7 +99,7 @@ fn many_files_are_told_in_their_order() {
     let mut order: Vec<&str> = said.lines().map(|line| line.split(':').next().unwrap()).collect();
     order.dedup();
     assert_eq!(order, backwards);
-    // Where there is no terminal, nothing tells how far it is.
+    // Where there is no terminal, nothing shows how far it is.
     assert!(!said.contains("checked ") && !said.contains('\r'));
     let again = odgen(&scratch.0, &[&["check", "--format", "short"], backwards.as_slice()].concat());
     assert_eq!(stderr(&again), said);

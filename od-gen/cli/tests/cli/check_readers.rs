@@ -2,7 +2,7 @@
 
 use crate::{FAN, LAMP, Scratch, code, odgen, stderr, stdout};
 
-/// An EDS that every reader takes, but for an access type and a vendor's key.
+/// An EDS that every reader takes, except for an access type and a vendor's key.
 const LEVEL: &str = "\
 [2000]
 ParameterName=level
@@ -69,7 +69,7 @@ fn a_finding_names_the_readers_in_every_format() {
 }
 
 #[test]
-fn a_code_tells_who_stumbles_over_it() {
+fn a_code_names_the_readers_that_fail() {
     let scratch = Scratch::new("explain-readers");
     let said = stdout(&odgen(&scratch.0, &["explain", "EDS406"]));
     assert!(said.contains("- canopen-host: it knows the six access types only\n"), "{said}");
@@ -77,7 +77,7 @@ fn a_code_tells_who_stumbles_over_it() {
     assert!(!stdout(&odgen(&scratch.0, &["explain", "EDS410"])).contains("refuse an EDS"));
 }
 
-/// What nobody refuses is no error for anybody.
+/// What no reader refuses is not an error.
 #[test]
 fn a_file_that_is_wrong_may_be_read_all_the_same() {
     let scratch = Scratch::new("for-fan");

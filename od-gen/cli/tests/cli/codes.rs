@@ -8,8 +8,8 @@ use crate::provoked::{ADAPTER, PROVOKED};
 use crate::{Scratch, odgen, stderr};
 
 /// Name and text of each file: a lamp whose 1017h departs from cia301, a template with a mistake, a file that each of five readers
-/// refuses for something, two files that are no concise DCF, a trace with a bad line, a DCF without formulas, three that are no XDD, and
-/// an XDD with a fault of each kind.
+/// refuses for something, two files that are not concise DCF, a trace with a bad line, a DCF without formulas, three
+/// that are no XDD, and an XDD with a fault of each kind.
 const FILES: &[(&str, &str)] = &[
     (
         "lamp.od.yaml",
@@ -51,7 +51,8 @@ fn each_is_provoked() {
     }
 }
 
-/// The address of an adapter that says yes to everything, for one client, on a bus with a node 5 that tells nothing but its device type.
+/// The address of an adapter that says yes to everything, for one client, on a bus with a node 5 that reports only its
+/// device type.
 fn adapter() -> String {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap();

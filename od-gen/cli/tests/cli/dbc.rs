@@ -4,7 +4,7 @@ use insta::assert_snapshot;
 
 use crate::{LAMP, PITCH, Scratch, code, odgen, stderr, stdout};
 
-/// Two nodes of the pitch system: who has a PDO, and what is none.
+/// Two nodes of the pitch system: which of them has a PDO, and what is not one.
 #[test]
 fn nodes_of_a_bus_share_a_file() {
     let scratch = Scratch::new("dbc");
@@ -27,7 +27,7 @@ fn a_node_has_a_file_of_its_name() {
     assert_snapshot!("dbc-lamp", String::from_utf8(bytes).unwrap().replace('\r', ""));
     // Again, over what it made itself; and not over anything else.
     assert_eq!(code(&odgen(&scratch.0, &["dbc", "lamp.od.yaml", "--node", "7"])), 0);
-    scratch.file("lamp-7.dbc", "VERSION \"somebody else\"");
+    scratch.file("lamp-7.dbc", "VERSION \"another tool\"");
     let output = odgen(&scratch.0, &["dbc", "lamp.od.yaml", "--node", "7"]);
     assert_eq!(code(&output), 1);
     assert!(stderr(&output).contains("lamp-7.dbc"), "{}", stderr(&output));

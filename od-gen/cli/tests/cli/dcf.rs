@@ -63,7 +63,7 @@ fn dcf_refuses_what_the_device_would_refuse() {
 }
 
 #[test]
-fn a_sub_index_is_written_as_in_the_language_as_in_an_eds_or_behind_a_colon() {
+fn a_sub_index_is_written_as_in_the_language_as_in_an_eds_or_after_a_colon() {
     let scratch = Scratch::new("sub-index");
     let run = |setting: &str| {
         let start = ["--format", "short", "dcf", PITCH, "--device", "pmc", "--node", "5", "--set"];
@@ -84,7 +84,7 @@ fn a_sub_index_is_written_as_in_the_language_as_in_an_eds_or_behind_a_colon() {
         assert_eq!(run(same), (0, String::new()), "{same}");
         assert_eq!(written(), expected, "{same}");
     }
-    // In an EDS sub-indices are hexadecimal; behind a colon they are either.
+    // In an EDS sub-indices are hexadecimal; after a colon they can be either.
     for (text, sub) in [("6510sub0A=1", "6510h.10"), ("6510.10=1", "6510h.10"), ("6510:0A=1", "6510h.10")] {
         assert!(run(text).1.contains(sub), "{:?}", run(text));
     }
@@ -138,8 +138,8 @@ fn dcf_refuses_names_that_a_line_cannot_hold() {
 }
 
 #[test]
-fn dcf_is_written_beside_what_it_is_made_from() {
-    let scratch = Scratch::new("beside");
+fn dcf_is_written_next_to_what_it_is_made_from() {
+    let scratch = Scratch::new("next-to");
     let library = "od-spec: 1\ntitle: Own\nprofile: own\n";
     scratch.file("own.od.yaml", library);
     let spec = LAMP.replace("uses: [cia301]", "uses: [cia301, own.od.yaml]");
@@ -309,7 +309,7 @@ fn parameter_files_and_options_are_laid_over_each_other() {
     let (code, said) = run(&["--node", "6"]);
     assert_eq!(code, 0);
     assert!(said.contains("type.yaml says node 4") && said.contains("blade.yaml says node 5"), "{said}");
-    // The device of a file is no choice between devices where the command line names another.
+    // The device of a file is not a choice between devices where the command line names another.
     let (code, said) = run(&["--device", "door"]);
     assert_eq!(code, 1);
     assert!(said.contains("OD0306") && said.contains("type.yaml:2:9"), "{said}");
@@ -341,7 +341,7 @@ fn a_dcf_gives_the_parameter_file_that_it_was_made_of() {
     let dcf = |name: &str| fs::read_to_string(scratch.0.join(name)).unwrap();
     assert!(without_names(&dcf("a.dcf")) == without_names(&dcf("b.dcf")));
     assert_eq!(run(&["params", "b.dcf", "--spec", "oven.od.yaml", "--device", "oven"]).1, text);
-    // The two files say the same but for the value that is the default; so do file and DCF but for the lock.
+    // The two files say the same except for the value that is the default; so do file and DCF except for the lock.
     let (_, same, _) =
         run(&["diff", "oven.yaml", "back.yaml", "--spec", "oven.od.yaml", "--format", "short"]);
     assert_snapshot!("difference_of_parameter_files", same);
@@ -363,7 +363,7 @@ fn a_dcf_gives_the_parameter_file_that_it_was_made_of() {
 }
 
 #[test]
-fn what_a_parameter_file_cannot_say_is_told() {
+fn what_a_parameter_file_cannot_say_is_reported() {
     let scratch = Scratch::new("params-left-out");
     scratch.file("oven.od.yaml", OVEN);
     scratch.file("oven.yaml", EVERYTHING);
@@ -383,7 +383,7 @@ fn what_a_parameter_file_cannot_say_is_told() {
     let (code, text, _) = run(&["params", "b.dcf", "--spec", "oven.od.yaml", "--device", "oven"]);
     assert_eq!(code, 0);
     assert_snapshot!("parameter_file_with_what_is_left_out", text);
-    // Of a node that nobody numbers, at a bit rate that nobody has.
+    // Of a node without a node-ID, at a bit rate that no node has.
     let dcf = fs::read_to_string(scratch.0.join("a.dcf")).unwrap();
     let nobody = dcf.replace("NodeID=7\r\n", "").replace("Baudrate=500", "Baudrate=777");
     scratch.file("c.dcf", nobody);
@@ -393,7 +393,7 @@ fn what_a_parameter_file_cannot_say_is_told() {
 }
 
 #[test]
-fn what_tools_write_at_boot_is_told() {
+fn what_tools_write_at_boot_is_reported() {
     let scratch = Scratch::new("explain");
     let all = OVEN.replace("{name: Oven, bit-rates", "{name: Oven, eds-defaults: all, bit-rates");
     scratch.file("oven.od.yaml", &all);
@@ -520,7 +520,7 @@ fn modules_are_plugged_into_the_specification_of_a_coupler() {
 }
 
 #[test]
-fn an_xdd_does_without_what_a_file_says_in_its_own_words_and_it_is_told() {
+fn an_xdd_does_without_what_a_file_says_in_its_own_words_and_it_is_reported() {
     let scratch = Scratch::new("not-in-xdd");
     scratch.file("coupler.eds", COUPLER);
     for arguments in [&["build", "coupler.eds", "--xdd"][..], &["dcf", "coupler.eds", "--node", "5", "--xdc"]]

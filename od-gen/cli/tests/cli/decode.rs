@@ -17,7 +17,7 @@ fn of_pitch(name: &str, trace: &str) -> (String, String, i32) {
 }
 
 #[test]
-fn every_service_is_told() {
+fn every_service_is_reported() {
     let (told, said, code) = of_pitch(
         "decode-services",
         "\
@@ -45,7 +45,7 @@ can0 7E4#4F00000000000000
 }
 
 #[test]
-fn foreign_frames_are_told_to_be_unknown() {
+fn foreign_frames_are_reported_to_be_unknown() {
     let (told, said, code) = of_pitch(
         "decode-foreign",
         "\
@@ -66,7 +66,7 @@ can0 123#R2
 }
 
 #[test]
-fn sdo_transfers_are_told_with_their_values() {
+fn sdo_transfers_are_reported_with_their_values() {
     let (told, said, code) = of_pitch(
         "decode-sdo",
         "\
@@ -134,7 +134,7 @@ can0 185#3702
 }
 
 #[test]
-fn lines_that_cannot_be_read_are_told_with_their_place() {
+fn lines_that_cannot_be_read_are_reported_with_their_place() {
     let (told, said, code) = of_pitch("decode-bad", "can0 080#\ncan0 18x#\n\nt1819\ncan0 705#05\n");
     assert_eq!(code, 1);
     assert_snapshot!("decode-bad", format!("{told}---\n{said}"));
@@ -179,7 +179,7 @@ fn nodes_are_named_or_are_those_of_dcfs() {
 }
 
 #[test]
-fn lines_of_an_adapter_are_told_as_they_come() {
+fn lines_of_an_adapter_are_reported_as_they_come() {
     let scratch = Scratch::new("decode-returns");
     scratch.file("lamp.od.yaml", LAMP);
     let mut child = Command::new(env!("CARGO_BIN_EXE_odgen"))
@@ -206,7 +206,7 @@ fn lines_of_an_adapter_are_told_as_they_come() {
         }
         assert_eq!(said, told);
     }
-    // A line that nobody ends in time is wrong, and not kept.
+    // A line that does not end in time is wrong, and not kept.
     let endless = [b"t705100 ".as_slice(), &vec![b'x'; 1 << 20], b"\rwhat\r"].concat();
     std::io::Write::write_all(&mut input, &endless).unwrap();
     drop(input);

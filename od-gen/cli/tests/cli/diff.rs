@@ -18,7 +18,7 @@ fn lamps(name: &str) -> Scratch {
 }
 
 #[test]
-fn differences_are_told_with_what_they_break() {
+fn differences_are_reported_with_what_they_break() {
     let scratch = lamps("diff");
     let output = odgen(&scratch.0, &["diff", "old.od.yaml", "new.od.yaml"]);
     assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
@@ -75,7 +75,7 @@ fn nodes_and_their_values_are_compared() {
     assert!(human.starts_with("0 changes\n"), "{human}");
 }
 
-/// Nobody reads colours out of a file, unless somebody asks for them.
+/// A file gets no colours unless the user asks for them.
 #[test]
 fn colours_are_for_terminals() {
     let scratch = lamps("diff-colours");

@@ -17,7 +17,7 @@ use crate::{Scratch, code, odgen, stderr, stdout};
 const TOLD: &str = "t58584B002000";
 const TAKEN: &str = "t585860002000";
 
-/// A bus with a heater as node 5 behind a relay.
+/// A bus with a heater as node 5, reached through a relay.
 struct Bus {
     /// Runs as long as the bus.
     _served: Served,
@@ -81,7 +81,7 @@ fn a_read_is_repeated_once() {
 
 #[test]
 fn an_entry_with_a_malformed_answer_is_left_out_and_named() {
-    // FFh is no answer of CiA 301.
+    // FFh is not an answer of CiA 301.
     let bus = Bus::new("dirt-malformed", same(), begins(TOLD, "t5858FF002000"));
     let mut said = vec![bus.node("read", &["2000", "2001"]), bus.node("backup", &["--out", "kept.yaml"])];
     let kept = fs::read_to_string(bus.scratch.0.join("kept.yaml")).unwrap();
@@ -96,7 +96,7 @@ fn an_entry_with_a_malformed_answer_is_left_out_and_named() {
     assert_snapshot!("dirt-malformed", said.concat());
 }
 
-/// A default stands in for an entry only after it was asked for again, and by name.
+/// A default replaces an entry only after it was asked for again, and by name.
 #[test]
 fn a_rule_asks_again_before_it_takes_a_default() {
     const HIGHEST: &str = "t58584B012000";
@@ -130,7 +130,7 @@ fn a_rule_asks_again_before_it_takes_a_default() {
 }
 
 #[test]
-fn a_short_answer_is_told_as_that() {
+fn a_short_answer_is_reported_as_that() {
     let short = Box::new(|line: &str| {
         let cut = line.strip_prefix(TOLD).map(|_| "t58544B002000".to_owned());
         Some(cut.unwrap_or_else(|| line.to_owned()))
@@ -184,7 +184,7 @@ fn a_monitor_asks_on_after_a_malformed_answer() {
     let emergency = HEATER.replace("heartbeat producer", "heartbeat producer, emergency");
     let bus = Bus::of("dirt-monitor", &emergency, counts, begins("t585843141000", "t5858FF141000"));
     let said = bus.node("monitor", &["--ask", "--for", "0"]);
-    assert!(said.contains("node 5 does not tell 1014h, which is taken as specified"), "{said}");
+    assert!(said.contains("node 5 does not report 1014h, which is taken as specified"), "{said}");
     assert_eq!(asked.load(Ordering::SeqCst), 1, "{said}");
 }
 
@@ -214,7 +214,7 @@ const BOOT_UP: &str = "t705100";
 
 /// What a reset takes away comes back in no answer; its boot-up message may be lost.
 #[test]
-fn a_node_that_starts_again_in_the_middle_is_told() {
+fn a_node_that_starts_again_in_the_middle_is_reported() {
     let file = "od-parameters: 1\nparameters: {wanted temperature: 40.0 °C, place: at the window}\n";
     let said = |name: &str, frames: &'static [(usize, &'static str)], command: &str, arguments: &[&str]| {
         let bus = Bus::new(&format!("dirt-start-{name}"), same(), brings(frames));
@@ -245,7 +245,7 @@ fn a_node_that_starts_again_in_the_middle_is_told() {
 }
 
 #[test]
-fn a_monitor_tells_who_starts_again_after_it_was_asked() {
+fn a_monitor_reports_which_node_starts_again_after_it_was_asked() {
     let monitor = |name: &str, frames: &'static [(usize, &'static str)]| {
         let bus = Bus::of(&format!("dirt-monitor-{name}"), crate::node::SENSOR, same(), brings(frames));
         bus.node("monitor", &["--ask", "--for", "0", "--only", "heartbeat"])
@@ -307,7 +307,7 @@ fn a_node_that_starts_again_before_its_turn_is_not_written_to() {
 
 /// It got its values, and perhaps has lost them.
 #[test]
-fn a_node_that_starts_again_after_its_turn_is_told_with_what_was_sent() {
+fn a_node_that_starts_again_after_its_turn_is_reported_with_what_was_sent() {
     let mut is_brought = false;
     let brings = Box::new(move |line: &str| {
         let of_hall = line.starts_with("t586860002000");
@@ -324,8 +324,8 @@ fn a_node_that_starts_again_after_its_turn_is_told_with_what_was_sent() {
 }
 
 #[test]
-fn each_node_of_a_machine_is_told_with_its_state() {
-    // The first node answers until it is told to take the first value.
+fn each_node_of_a_machine_is_reported_with_its_state() {
+    // The first node answers until it is made to take the first value.
     let mut is_gone = false;
     let goes = Box::new(move |line: &str| {
         is_gone |= line.starts_with("t60582B002000");
@@ -386,7 +386,7 @@ impl CtrlC {
     }
 }
 
-/// An interrupt in the middle of a mapping: the PDO is completed, and what comes behind it is not sent.
+/// An interrupt in the middle of a mapping: the PDO is completed, and what comes after it is not sent.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_lets_the_step_in_hand_come_to_its_end() {

@@ -36,7 +36,7 @@ fn a_manual_to_be_printed_shows_errata_on_request() {
     assert_eq!((code(&output), stderr(&output)), (0, String::new()));
     assert_eq!(files(&scratch.0.join("out")), ["lamp/manual.html"]);
     assert_eq!(code(&odgen(&scratch.0, &[&print[..], &["--errata"]].concat())), 0);
-    // Nobody waits for marks that never come.
+    // The command does not wait for marks that never come.
     let output =
         odgen(&scratch.0, &["docs", "lamp.od.yaml", "--format", "html", "--errata", "--out", "none"]);
     assert_eq!(code(&output), 2);

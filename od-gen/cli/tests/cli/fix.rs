@@ -48,7 +48,7 @@ fn fix_writes_and_then_has_nothing_to_do() {
     assert!(fixed.is_ascii() && fixed.contains("; 20 degC\r\n[1000]"), "{fixed}");
     let again = odgen(&scratch.0, &["fix", "--write", "--diff", "mark.eds", "latin.eds"]);
     assert_eq!((code(&again), stdout(&again)), (0, String::new()));
-    assert_eq!(stderr(&again).matches("there is nothing to put right").count(), 2, "{}", stderr(&again));
+    assert_eq!(stderr(&again).matches("there is nothing to fix").count(), 2, "{}", stderr(&again));
     assert_eq!(fs::read_to_string(&path).unwrap(), fixed);
 }
 
@@ -58,7 +58,7 @@ fn fix_leaves_to_people_what_people_decide() {
     let text = messy(&scratch);
     scratch.file("lamp.eds", text.replacen("1=0x1000", "1=0x100G", 1));
     let output = odgen(&scratch.0, &["fix", "lamp.eds", "--write"]);
-    // What could be done is done; whether the file is right, `odgen check` tells.
+    // What could be done is done; whether the file is right, `odgen check` reports.
     assert_eq!(code(&output), 0);
     assert_eq!(code(&odgen(&scratch.0, &["check", "lamp.eds"])), 1);
     assert!(stderr(&output).contains("error[EDS304]"), "{}", stderr(&output));

@@ -43,7 +43,7 @@ fn editors_send_a_text_and_get_it() {
     let scratch = Scratch::new("fmt-stdin");
     let output = odgen_with_input(&scratch.0, &["fmt", "-"], CROOKED.as_bytes());
     assert_eq!((code(&output), stdout(&output)), (0, STRAIGHT.to_owned()));
-    // What goes to a file is no message: nothing in it is shown as an escape.
+    // What goes to a file is not a message: nothing in it is shown as an escape.
     let output = odgen_with_input(&scratch.0, &["fmt", "-"], "a: \"\u{2028}\"\n".as_bytes());
     assert_eq!(stdout(&output), "a: \"\u{2028}\"\n");
     let output = odgen_with_input(&scratch.0, &["fmt", "-", "--check"], CROOKED.as_bytes());

@@ -25,7 +25,7 @@ fn an_eds_is_used_whatever_is_wrong_with_it() {
         assert!(made.iter().any(|path| path == name), "{name}: {made:?}");
     }
     assert!(scratch.0.join("mixer-9.dcf").exists());
-    // Names that clash, a name without a letter, a text whose length nobody states.
+    // Names that clash, a name without a letter, a text whose length is not stated.
     let module = fs::read_to_string(scratch.0.join("out/src/mixer.rs")).unwrap();
     for function in ["speed_2000(&self) -> i16", "speed_2001(&self) -> i16", "object_2006(&self) -> &str"] {
         assert!(module.contains(&format!("pub fn {function}")), "{function}");
@@ -134,7 +134,7 @@ fn a_dcf_keeps_its_node_and_its_values() {
     assert!(section(&read("other/eds/fan.dcf"), "2000").contains("ParameterValue=-5"));
 }
 
-/// Nobody guesses which node a DCF is for.
+/// It is not guessed which node a DCF is for.
 #[test]
 fn a_dcf_that_states_no_node_is_for_none() {
     let (head, rest) = ROOF_FAN.split_once("[DeviceComissioning]").unwrap();
@@ -183,7 +183,7 @@ fn a_device_and_a_node_are_named_where_there_is_a_choice() {
 
 /// The EDS says nothing about the start, but code starts with something.
 #[test]
-fn code_that_starts_with_a_value_it_refuses_is_told() {
+fn code_that_starts_with_a_value_it_refuses_is_reported() {
     let scratch = Scratch::new("foreign-start");
     let level = |at: u16, more: &str| {
         format!("[{at:X}]\nParameterName=level {at}\nObjectType=7\nDataType=5\nAccessType=rw\n{more}\n")

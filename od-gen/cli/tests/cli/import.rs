@@ -48,7 +48,7 @@ fn a_specification_that_is_there_is_not_overwritten() {
 
 /// What the end says of a node's values can be given to `odgen dcf` as it is.
 #[test]
-fn values_of_a_node_stand_at_the_end() {
+fn values_of_a_node_are_at_the_end() {
     let scratch = Scratch::new("import-node");
     let running = "ParameterName=Running\n";
     scratch.file("fan.dcf", ROOF_FAN.replace(running, "ParameterName=Running\nParameterValue=1\n"));

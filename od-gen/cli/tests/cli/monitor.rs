@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use crate::served::{Served, interrupt};
 use crate::{LAMP, Scratch, code, odgen, stderr};
 
-/// A lamp that tells its brightness, its errors and that it lives.
+/// A lamp that sends its brightness, its errors and a heartbeat.
 fn lamp() -> String {
     LAMP.replace("[heartbeat producer]", "[heartbeat producer, emergency]")
         .replace("pdo: receive", "pdo: transmit")
@@ -15,7 +15,7 @@ fn lamp() -> String {
         + "errors:\n  0x4210: {name: too hot, about: It is over 80 degrees.}\n"
 }
 
-/// Nodes, and somebody who watches them.
+/// Nodes, and a monitor that watches them.
 struct Watched {
     served: Served,
     monitor: Child,
@@ -67,7 +67,7 @@ impl Drop for Watched {
 }
 
 #[test]
-fn what_goes_over_the_bus_is_told_until_somebody_ends_it() {
+fn what_goes_over_the_bus_is_reported_until_it_is_ended() {
     let mut watched = Watched::new("monitor", &["lamp.od.yaml", "--node", "5"], &["--ask"]);
     // It has asked by then, and heartbeats come by themselves.
     watched.lines(&["705h  lamp (node 5)  heartbeat  pre-operational"]);
@@ -111,7 +111,7 @@ fn without_a_specification_there_are_no_names_and_the_time_is_limited() {
 }
 
 #[test]
-fn a_bus_that_breaks_away_is_told_with_what_was_seen() {
+fn a_bus_that_breaks_away_is_reported_with_what_was_seen() {
     let mut watched = Watched::new("monitor-broken", &["lamp.od.yaml", "--node", "5"], &[]);
     watched.lines(&["705h  lamp (node 5)  heartbeat  pre-operational"]);
     watched.served.child.kill().unwrap();

@@ -135,7 +135,7 @@ fn entries_are_written_after_a_check() {
 }
 
 #[test]
-fn nobody_there_is_told() {
+fn silence_is_reported() {
     let bus = Bus::new("node-nobody");
     let said = [
         bus.run(&["read", "heater.od.yaml", "--node", "9", "--timeout", "50", "2000", "2001"]),
@@ -172,7 +172,7 @@ fn parameters_are_kept_compared_and_given_back() {
 }
 
 #[test]
-fn what_cannot_be_given_back_is_told() {
+fn what_cannot_be_given_back_is_reported() {
     let bus = Bus::new("node-restore");
     let file = |name: &str, text: &str| {
         bus.scratch.file(name, format!("od-parameters: 1\ndevice: heater\n{text}"));
@@ -214,7 +214,7 @@ fn a_node_that_is_another_device_is_left_alone() {
         // Nothing has come.
         bus.node("read", &["2004"]),
         bus.run(&["write", "other.od.yaml", "--node", "5", "2004=cellar", "--any-device"]),
-        // 0 is no product of its own: nobody knows it.
+        // 0 is not a product: it is unknown.
         bus.run(&["read", "unknown.od.yaml", "--node", "5", "2004"]),
         bus.run(&["scan", "other.od.yaml", "unknown.od.yaml", "--timeout", "100"]),
     ];
@@ -395,7 +395,7 @@ fn a_text_that_no_dcf_holds_is_kept_and_given_back() {
     assert_snapshot!("node-texts", said.concat());
 }
 
-/// Devices of one kind are told apart by their serial numbers: a backup knows whose it is.
+/// Devices of one kind are distinguished by their serial numbers: a backup knows whose it is.
 #[test]
 fn a_node_with_another_serial_number_or_revision_is_left_alone() {
     let with = |number: u32| {
@@ -468,7 +468,7 @@ fn storing_asks_first_who_is_there() {
         bus.run(&["store", "plant.yaml", "--any-serial"]),
         bus.run(&["store", "heater.od.yaml"]),
         bus.run(&["store"]),
-        // Nobody has said what it is to be: it is shown.
+        // Its kind was not stated: it is shown.
         bus.as_it_is(&["store", "--node", "5", "--dry-run"]),
         bus.run(&["store", "--node", "5", "--any-device"]),
     ];

@@ -37,7 +37,7 @@ fn value<'a>(dcf: &'a str, section: &str) -> Option<&'a str> {
 }
 
 #[test]
-fn values_hold_whoever_gives_the_node_id() {
+fn values_hold_wherever_the_node_id_is_from() {
     for (name, pump, node) in [
         ("own", PUMP.to_owned(), &[][..]),
         ("given", PUMP.to_owned(), &["--node", "5"]),
@@ -150,8 +150,8 @@ fn a_cob_id_without_a_formula_is_reported() {
     let (_, _, wrong) = run(&scratch, &["plant", "check", "plant.yaml"]);
     assert!(wrong.contains(warning), "{wrong}");
     // Without `[DeviceComissioning]`, the values show which node they were for.
-    scratch.file("nobody.dcf", without_node());
-    let (_, _, wrong) = run(&scratch, &["dbc", "nobody.dcf", "--node", "9"]);
+    scratch.file("no-node.dcf", without_node());
+    let (_, _, wrong) = run(&scratch, &["dbc", "no-node.dcf", "--node", "9"]);
     assert!(wrong.contains("node 9 uses 205h, a COB-ID of node 5, for RPDO 1; 2 more COB-IDs"), "{wrong}");
     // The node itself has its own COB-IDs, and what is set on purpose is right.
     for arguments in [

@@ -33,7 +33,7 @@ fn outputs_are_those_of_one_file() {
 }
 
 #[test]
-fn a_part_stands_for_its_specification() {
+fn a_part_represents_its_specification() {
     let scratch = lamp_in_parts("part");
     let part = "parts/objects.od.yaml";
     let output = odgen(&scratch.0, &["check", part]);

@@ -105,7 +105,7 @@ fn files_of_nodes_that_are_gone_are_named_and_removed_on_request() {
 }
 
 #[test]
-fn what_somebody_changed_is_seen_whatever_its_size_and_time() {
+fn what_was_changed_is_seen_whatever_its_size_and_time() {
     let scratch = presses("plant-changed");
     assert_eq!(code(&odgen(&scratch.0, &BUILD)), 0);
     let built = tree(&scratch);
@@ -135,7 +135,7 @@ fn a_wrong_plant_writes_nothing() {
 }
 
 #[test]
-fn each_value_tells_the_level_that_gives_it() {
+fn each_value_reports_the_level_that_gives_it() {
     let scratch = presses("plant-show");
     let show = |arguments: &[&str]| {
         let output = odgen(&scratch.0, &[&["plant", "show", "plant.yaml"], arguments].concat());

@@ -29,7 +29,7 @@ const TAKEN: &str = "t585860511F01";
 /// The node ends a transfer in blocks.
 const WHOLE: &str = "t5858A1";
 
-/// A bus with a pump as node 5 behind a relay.
+/// A bus with a pump as node 5, reached through a relay.
 struct Bus {
     served: Served,
     relay: Relay,
@@ -63,7 +63,7 @@ impl Bus {
         told(&["program", &arguments.join(" ")].join(" "), &output)
     }
 
-    /// The same where something is missing, which nobody wants to wait for.
+    /// The same where something is missing, which need not be waited for.
     fn in_vain(&self, patience: &str) -> String {
         self.program(&["pump.bin", "--yes", "--patience", patience, "--timeout", "300"])
     }

@@ -6,10 +6,10 @@ pub(crate) struct Provocation {
     pub(crate) arguments: &'static [&'static str],
 }
 
-/// Stands for the address of an adapter on a bus without nodes.
+/// Represents the address of an adapter on a bus without nodes.
 pub(crate) const ADAPTER: &str = "tcp:ADAPTER";
 
-/// What readers do not take in a file that nobody else minds.
+/// What readers do not take in a file that no other reader refuses.
 const READERS: &[&str] = &["check", "readers.eds", "--notes", "--all"];
 
 /// An XDD with a fault of each kind.

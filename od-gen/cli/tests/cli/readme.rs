@@ -55,7 +55,7 @@ fn the_way_from_an_eds_to_a_specification_is_as_shown() {
 }
 
 #[test]
-fn the_trace_is_told_as_shown() {
+fn the_trace_is_reported_as_shown() {
     let scratch = Scratch::new("readme-decode");
     scratch.file("valve.od.yaml", include_str!("../../../../tests/readme/valve.od.yaml"));
     let lines = "\
@@ -109,7 +109,7 @@ fn the_parameter_file_is_one_of_the_valve() {
     assert!(stdout(&schema).contains("\"title\": \"Parameters of Valve (valve)\""));
 }
 
-/// From an empty folder: the specification, the plant file, and the commands as they stand there.
+/// From an empty folder: the specification, the plant file, and the commands as they are there.
 #[test]
 fn the_plant_is_built_by_the_commands_that_are_shown() {
     let scratch = Scratch::new("readme-plant");

@@ -15,7 +15,7 @@ pub(crate) struct Relay {
 }
 
 impl Relay {
-    /// Between whoever connects and an adapter (`tcp:127.0.0.1:PORT`).
+    /// Between a client and an adapter (`tcp:127.0.0.1:PORT`).
     pub(crate) fn new(adapter: &str, to_nodes: Change, from_nodes: Change) -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = format!("tcp:{}", listener.local_addr().unwrap());

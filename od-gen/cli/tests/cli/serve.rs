@@ -55,7 +55,7 @@ fn clients_talk_to_nodes_by_slcan() {
     served.ask("t00028100\r", "z\rt705100\rt706100\r");
     served.ask("r7051\r", "z\rt70517F\r");
     served.ask("T000000050\r", "Z\r");
-    // A line that is too long, and one behind it.
+    // A line that is too long, and one after it.
     served.ask(&format!("t{}\rV\r", "0".repeat(100)), "\u{7}V1010\r");
     served.served.child.kill().unwrap();
     let mut log = String::new();
@@ -134,7 +134,7 @@ fn nodes_have_the_values_of_their_dcf() {
     }
 }
 
-/// A lamp that tells its brightness and its errors.
+/// A lamp that reports its brightness and its errors.
 fn lamp_that_tells() -> String {
     LAMP.replace("[heartbeat producer]", "[heartbeat producer, emergency]")
         .replace("pdo: receive", "pdo: transmit")
@@ -258,7 +258,7 @@ fn a_trace_of_a_machine_is_decoded() {
     assert!(told.contains("596h  drive (node 22)  SDO ←  3000h lowest voltage = 520.0 V"), "{told}");
 }
 
-/// At which time a value is what is tested beside the source, with a clock of the test.
+/// At which time a value is what is tested in the source's folder, with a clock of the test.
 #[test]
 fn values_run_and_stop() {
     let scratch = Scratch::new("serve-ramps");
@@ -274,7 +274,7 @@ fn values_run_and_stop() {
         steps.push(served.brightness());
     }
     assert!(steps[0] == 0 && steps.is_sorted_by(|one, next| one < next), "{steps:?}");
-    // Where it stops nobody knows, but there it stays: the next thing that comes is what is set.
+    // It is unknown where it stops, but there it stays: the next thing that comes is what is set.
     writeln!(input, "5 triangle 2000=10..12 in 0.2").unwrap();
     served.answers("", "t18510B\r");
     writeln!(input, "5 stop 2000\n5 set 2000=99").unwrap();
@@ -286,7 +286,7 @@ fn values_run_and_stop() {
     let mut line = String::new();
     while !line.contains("2000h (brightness) cannot be set to this: 0609 0031h") {
         line.clear();
-        assert!(log.read_line(&mut line).unwrap() > 0, "the end of what is told");
+        assert!(log.read_line(&mut line).unwrap() > 0, "the end of the log");
     }
 }
 
@@ -329,7 +329,7 @@ fn ramps_with_mistakes_are_refused_as_a_whole() {
 }
 
 #[test]
-fn places_that_cannot_be_are_told() {
+fn places_that_cannot_be_are_reported() {
     let scratch = Scratch::new("serve-places");
     scratch.file("lamp.od.yaml", LAMP);
     scratch.file("taken", "");
@@ -400,7 +400,7 @@ mod terminal {
             node(&["nmt", "reset-node", "--node", "5", "--bit-rate", "125"]),
             "node 5 has started again\n"
         );
-        // Somebody leaves half a line behind, an open channel, and frames that he does not read.
+        // A host leaves half a line, an open channel, and frames that it does not read.
         let mut host =
             std::fs::OpenOptions::new().read(true).write(true).open(scratch.0.join("bus")).unwrap();
         host.write_all(b"O\rt60584000200000000000\rt605840").unwrap();
@@ -436,7 +436,7 @@ mod terminal {
     }
 
     #[test]
-    fn a_host_that_reads_nothing_holds_up_nobody() {
+    fn a_host_that_reads_nothing_holds_up_no_other() {
         let scratch = Scratch::new("serve-pty-deaf");
         let (_served, port) = served(&scratch, "pty");
         let path = port.trim_start_matches("serial:");
@@ -551,9 +551,9 @@ const CONTRADICTIONS: &str = "[DeviceInfo]\nVendorNumber=7\nProductName=Scale\nB
     [2001sub0]\nParameterName=number\nDataType=9\nAccessType=ro\nDefaultValue=Test\n\
     [2001sub1]\nParameterName=name\nDataType=5\nAccessType=rw\nDefaultValue=9\n";
 
-/// What is wrong is told in one line; the rest of the file is a node.
+/// What is wrong is reported in one line; the rest of the file is a node.
 #[test]
-fn a_file_that_contradicts_itself_is_served_as_it_stands() {
+fn a_file_that_contradicts_itself_is_served_as_it_is() {
     let scratch = Scratch::new("serve-contradictions");
     scratch.file("scale.eds", CONTRADICTIONS);
     let mut served = WithClient::of(Served::start(&scratch, &["scale.eds", "--node", "5"], Stdio::piped()));
@@ -580,7 +580,7 @@ fn a_file_that_contradicts_itself_is_served_as_it_stands() {
 }
 
 #[test]
-fn an_address_for_other_machines_is_told() {
+fn an_address_for_other_machines_is_reported() {
     let scratch = Scratch::new("serve-open");
     scratch.file("lamp.od.yaml", LAMP);
     for (place, is_told) in [("tcp:0.0.0.0:0", true), ("tcp:127.0.0.1:0", false)] {

@@ -8,7 +8,7 @@ use crate::Scratch;
 /// Nodes on a bus at a free port, ended with the test.
 pub(crate) struct Served {
     pub(crate) child: Child,
-    /// The line that tells where it is.
+    /// The line that says where it is.
     pub(crate) line: String,
 }
 

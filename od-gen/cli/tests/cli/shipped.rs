@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::{Scratch, code, files, odgen, stderr};
 
-/// Files beside the generated ones that people wrote.
+/// Files that users wrote, next to the generated ones.
 const WRITTEN_BY_HAND: [&str; 2] = ["Cargo.toml", "src/lib.rs"];
 
 #[test]

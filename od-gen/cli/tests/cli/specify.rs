@@ -51,7 +51,7 @@ fn eds(scratch: &Scratch, specification: &str, key: &str) -> String {
     fs::read_to_string(scratch.0.join(format!("built/eds/{key}.eds"))).unwrap()
 }
 
-/// Makes a specification of a virtual node, and lays its EDS beside that of the node's own.
+/// Makes a specification of a virtual node, and compares its EDS with that of the node's own.
 fn is_described(name: &str, specification: &str, key: &str, ranges: &[&str]) {
     let scratch = Scratch::new(name);
     let served = Served::start(&scratch, &[specification, "--node", &format!("5={key}")], Stdio::null());
@@ -230,7 +230,7 @@ fn an_eds_in_another_form_is_left_alone() {
 }
 
 #[test]
-fn a_stored_eds_that_is_none_or_of_another_device_is_told() {
+fn a_stored_eds_that_is_not_one_or_of_another_device_is_reported() {
     let (scratch, served) = keeper("specify-broken", b"no EDS at all", 0);
     let (code, _, complained) = scan(&scratch, served.address(), &[]);
     assert_eq!(code, 1);

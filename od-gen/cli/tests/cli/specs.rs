@@ -36,7 +36,7 @@ fn without_a_spec_those_of_the_current_directory_are_taken() {
     // Programs that read JSON get nothing else.
     let output = odgen(&scratch.0, &["check", "--format", "json"]);
     assert_eq!((code(&output), stderr(&output)), (0, String::new()));
-    // A mistake is found in files that nobody named, too.
+    // A mistake is found also in files that were not named.
     scratch.file("a.od.yaml", LAMP.replace("access: rw", "acess: rw"));
     let output = odgen(&scratch.0, &["check", "--format", "short"]);
     assert_eq!(code(&output), 1);

@@ -27,7 +27,7 @@ fn a_device_has_its_files() {
         constants.contains("LAMP_RPDO1_CAN_ID_BASE : UDINT := 16#200; (* CAN-ID ohne die Node-ID"),
         "{constants}"
     );
-    scratch.file("plc/lamp.st", "(* somebody else *)");
+    scratch.file("plc/lamp.st", "(* another tool *)");
     let output = odgen(&scratch.0, &again);
     assert_eq!(code(&output), 1);
     assert!(stderr(&output).contains("lamp.st"), "{}", stderr(&output));
@@ -75,7 +75,7 @@ fn a_dcf_brings_its_node_and_its_values() {
 }
 
 #[test]
-fn what_is_left_out_is_told() {
+fn what_is_left_out_is_reported() {
     let scratch = Scratch::new("st-left-out");
     scratch.file("lamp.od.yaml", LAMP.replace("type: unsigned8", "type: real32"));
     let output = odgen(&scratch.0, &["st", "lamp.od.yaml", "--out", "."]);

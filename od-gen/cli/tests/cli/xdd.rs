@@ -11,7 +11,7 @@ const TANK: &str = include_str!("eds/tank.xdd");
 const FAULTY: &str = include_str!("eds/faulty.xdd");
 
 #[test]
-fn a_build_makes_them_beside_the_others() {
+fn a_build_makes_them_next_to_the_others() {
     let scratch = Scratch::new("xdd-build");
     scratch.file("lamp.od.yaml", LAMP);
     let output = odgen(&scratch.0, &["build", "lamp.od.yaml", "--xdd", "--node", "5", "--out", "out"]);
@@ -33,7 +33,7 @@ fn a_build_makes_them_beside_the_others() {
 }
 
 #[test]
-fn an_xdd_stands_wherever_an_eds_can() {
+fn an_xdd_can_be_wherever_an_eds_can() {
     let scratch = Scratch::new("xdd-read");
     scratch.file("tank.xdd", TANK);
     let run = |arguments: &[&str]| odgen(&scratch.0, arguments);

@@ -122,7 +122,7 @@ fn what_departs_from_a_library_can_be_left_to_it() {
             client.change("fullmo-drive.od.yaml", version, &changes);
             let again = client.diagnostics("fullmo-drive.od.yaml", version);
             assert!(again.iter().all(|one| one["code"] != "OD0104"), "{title}: {again:?}");
-            // The object says the same as its library, or the compiler tells what needs its word.
+            // The object says the same as its library, or the compiler reports what is missing.
             let is_right = again.iter().all(|one| one["severity"] != 1);
             let still = again.iter().any(|now| {
                 let (now, then) = (now["message"].as_str().unwrap(), one["message"].as_str().unwrap());

@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 
-/// Whoever waits longer for an answer waits for ever.
+/// A longer wait for an answer would not end.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// An editor, its server and a directory with files.

@@ -94,7 +94,7 @@ fn documents_have_the_messages_of_the_compiler() {
         let said = client.diagnostics(&name, 1);
         let mut found = found(&said);
         let mut expected = expected(&name, &text);
-        // A label's words stand behind the message.
+        // A label's words are after the message.
         for (found, expected) in found.iter_mut().zip(&mut expected) {
             if let Some(rest) = found.strip_prefix(expected.as_str()) {
                 assert!(rest.is_empty() || rest.starts_with(" ("), "{name}: {found}");
@@ -165,7 +165,7 @@ fn a_part_has_its_own_messages_whoever_is_open() {
     client.replace("units.od.yaml", 2, &part.replace("celsius", "kelvin"));
     assert_eq!(codes(&client.diagnostics("lamp.od.yaml", 1)), ["OD0608"]);
     assert_eq!(codes(&client.diagnostics("units.od.yaml", 2)), [""; 0]);
-    // A part stands for its specification, also where only the part is open.
+    // A part represents its specification, also where only the part is open.
     client.close("lamp.od.yaml");
     client.replace("units.od.yaml", 3, &part);
     assert_eq!(client.diagnostics("units.od.yaml", 3), [Value::Null; 0]);
@@ -251,7 +251,7 @@ fn plants_and_parameter_files_are_checked_as_far_as_they_stand_alone() {
     assert_eq!(codes(&client.diagnostics("house.yaml", 2)), [""; 0]);
     client.open("hall.yaml", "od-parameters: 1\nparameter: {brightness: 60}\n");
     assert!(codes(&client.diagnostics("hall.yaml", 1)).contains(&"OD0201"));
-    // Other YAML is nobody's business here.
+    // Other YAML is not looked at.
     client.open("docker-compose.yaml", "services: {lamp: }\n");
     assert_eq!(codes(&client.diagnostics("docker-compose.yaml", 1)), [""; 0]);
     assert_eq!(client.leave(), 0);

@@ -33,7 +33,7 @@ constraints:
   in order: {require: limits.lowest < 0x2002.2, about: \"🌀: low below high\"}
 ";
 
-/// A text without its mark, and the line and the unit of UTF-16 at which that stood.
+/// A text without its mark, and the line and the unit of UTF-16 at which that was.
 pub(crate) fn marked(text: &str) -> (String, (u32, u32)) {
     let at = text.find('‸').unwrap_or_else(|| panic!("no mark"));
     let line = text[..at].matches('\n').count();
@@ -43,7 +43,7 @@ pub(crate) fn marked(text: &str) -> (String, (u32, u32)) {
     (text.replacen('‸', "", 1), position)
 }
 
-/// The specification with another piece, in which the mark stands.
+/// The specification with another piece, in which the mark is.
 pub(crate) fn heater(from: &str, to: &str) -> (String, (u32, u32)) {
     assert!(HEATER.contains(from), "{from}");
     marked(&HEATER.replacen(from, to, 1))
@@ -175,7 +175,7 @@ fn hover_tells_facts_meanings_and_raw_values() {
         assert_eq!(covers, range, "{to}: {said}");
         assert!(said.contains(told), "{to}: {said}");
     }
-    // In a comment there is nothing to tell.
+    // In a comment there is nothing to show.
     assert_eq!(session.hover("od-spec: 1", "od-spec: 1 # a na‸me").0, "");
 }
 
@@ -242,7 +242,7 @@ fn completion_offers_what_may_stand_there() {
         ("uses: [cia301]", "uses: [cia301, ‸]", &["cia402"], &["cia301"]),
         ("      1: {name: lowest, ", "      1: {‸, name: lowest, ", &[], &["name"]),
         ("pdos:\n  heater:", "pdos:\n  ‸\n  other:", &["heater"], &[]),
-        // Broken behind the cursor, and in it.
+        // Broken after the cursor, and in it.
         ("access: rw, default: 0, writable", "access: r‸, default: [0, writable", &["rw", "ro"], &[]),
     ] {
         let (items, _) = session.complete(from, to);
@@ -303,7 +303,7 @@ fn what_is_taken_stands_where_it_belongs() {
         let start = text.find(&to.replace('‸', "")).unwrap();
         let part = &text[start..];
         let at = part.find(&old).unwrap_or_else(|| panic!("{old}"));
-        // The same text may stand before it: the last one up to the cursor counts.
+        // The same text may be before it: the last one up to the cursor counts.
         let cursor = to.find('‸').unwrap();
         let at = part[..cursor].rfind(&old[..old.len().min(cursor)]).unwrap_or(at);
         let new = edit["newText"].as_str().unwrap();

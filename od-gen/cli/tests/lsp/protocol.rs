@@ -69,7 +69,7 @@ fn leaving_without_a_word_is_told_by_the_exit_code() {
     let mut client = Client::silent("exit-first");
     client.notify("exit", &Value::Null);
     assert_eq!(client.ended(), 1);
-    // The line goes dead behind `shutdown`.
+    // The line goes dead after `shutdown`.
     let mut client = Client::new("shutdown-only");
     assert!(client.request("shutdown", &Value::Null).is_ok());
     assert_eq!(client.hang_up(), 0);
@@ -103,7 +103,7 @@ fn unknown_methods_and_bad_parameters_are_errors() {
         assert_eq!(log["params"]["type"], 1, "{log}");
     }
     client.notify("$/setTrace", &json!({"value": "off"}));
-    client.notify("nobody/knows", &json!({}));
+    client.notify("unknown/method", &json!({}));
     assert_eq!(client.leave(), 0);
 }
 
@@ -116,7 +116,7 @@ fn what_is_no_message_is_refused_and_what_follows_is_read() {
     client.send(&json!({"jsonrpc": "2.0", "id": 1.5, "method": "shutdown"}));
     let refused = client.wait(|message| message["error"]["code"] == -32600);
     assert_eq!(refused["id"], 1.5);
-    // An answer that nobody waits for.
+    // An answer that is not waited for.
     client.send(&json!({"jsonrpc": "2.0", "id": 77, "result": null}));
     client.send(&json!({"jsonrpc": "2.0", "id": "a", "method": "fly"}));
     let answer = client.wait(|message| message["id"] == "a");

@@ -63,7 +63,7 @@ fn a_text_that_is_broken_in_the_middle_keeps_its_tree() {
     let symbols = client.request_about("textDocument/documentSymbol", "lamp.od.yaml");
     assert_eq!(outline(&symbols), LAMP_OUTLINE);
     let pdos = &symbols[4]["selectionRange"]["start"];
-    assert_eq!(*pdos, json!({"line": 11, "character": 0}), "what stands behind has moved");
+    assert_eq!(*pdos, json!({"line": 11, "character": 0}), "what follows has moved");
     assert_eq!(client.leave(), 0);
 }
 

@@ -9,7 +9,7 @@ use super::line::{Style, line};
 
 const STYLE: Style = Style { arrow: "→", longest: Some(120) };
 
-/// What a release of a device says about its changes: by class, the heaviest first. Each change stands under its heaviest
+/// What a release of a device says about its changes: by class, the heaviest first. Each change is under its heaviest
 /// consequence; documents are summed up.
 pub(super) fn entry(difference: &Difference, device: &DeviceDifference) -> String {
     let mut text = format!("### {}{}\n", escape(&device.name), version(device));

@@ -125,7 +125,7 @@ fn what_an_eds_states_is_compared() {
     );
 }
 
-/// An EDS describes one device; which of a system's it is, its name tells, or the user.
+/// An EDS describes one device; its name, or the user, says which of a system's it is.
 #[test]
 fn the_device_of_an_eds_has_to_be_known() {
     let spec = &*PITCH_SYSTEM;
@@ -140,7 +140,7 @@ fn the_device_of_an_eds_has_to_be_known() {
     assert!(found.changes().count() > 50, "the other device is another one");
 }
 
-/// What differs between an EDS and a copy in which one text stands for another.
+/// What differs between an EDS and a copy in which one text replaces another.
 fn changed(find: &str, replace: &str) -> Vec<String> {
     const COUPLER: &str = "[DeviceInfo]\nVendorNumber=7\nProductName=Coupler\nBaudRate_125=1\nCANopenSafetySupported=1\n\
         [Comments]\nLines=1\nLine1=old\n\
@@ -197,7 +197,7 @@ fn files_differ_in_what_they_say_in_their_own_words() {
 }
 
 #[test]
-fn a_specification_says_what_its_eds_has_beside_the_facts() {
+fn a_specification_says_what_its_eds_has_in_addition_to_the_facts() {
     let with = |more: &str| {
         system(&format!(
             "od-spec: 1\ntitle: Lamp\nuses: [cia301]\ndevices:\n  lamp:\n    name: Lamp\n    bit-rates: [125]\n    \

@@ -195,7 +195,7 @@ fn version_numbers_are_proposed_by_what_breaks() {
             Advice::Raise((1, 10)),
             Advice::Keep,
         ),
-        // No word of it stands in the EDS.
+        // No word of it is in the EDS.
         (
             "name: brightness, type",
             "name: brightness, identifier: level, type",
@@ -204,7 +204,7 @@ fn version_numbers_are_proposed_by_what_breaks() {
             Advice::Keep,
         ),
         ("{0: none}", "{0: nothing}", Class::Documents, Advice::Keep, Advice::Keep),
-        // The new file tells it already, or not enough.
+        // The new file states it already, or not enough.
         ("file-revision: 9", "file-revision: 10", Class::Documents, Advice::Keep, Advice::Keep),
     ] {
         assert_eq!(numbers(&changed(find, replace)), (Some(class), file, revision), "{replace}");

@@ -38,7 +38,7 @@ pub enum Fault {
         /// How many there are.
         found: u32,
     },
-    /// The file goes on behind its records.
+    /// The file goes on after its records.
     Rest {
         /// Where that begins.
         offset: usize,
@@ -63,7 +63,7 @@ impl Fault {
 
     /// The message about it in a file.
     pub fn diagnostic(self, file: &str) -> Diagnostic {
-        const AGAIN: &str = "make the file again; what stands before is shown";
+        const AGAIN: &str = "make the file again; the records before are shown";
         let (code, what, help) = match self {
             Fault::NoNumber { length } => (
                 codes::CONCISE_CUT_OFF,
@@ -82,17 +82,17 @@ impl Fault {
             }
             Fault::Missing { stated, found, .. } => (
                 codes::CONCISE_CUT_OFF,
-                format!("the file ends behind {found} of the {stated} records that it says it has"),
+                format!("the file ends after {found} of the {stated} records that it says it has"),
                 AGAIN,
             ),
             Fault::Rest { left, records: Some(records), .. } => (
                 codes::CONCISE_TOO_LONG,
-                format!("{} more behind the last record, which read as {records} more records", bytes(left)),
+                format!("{} more after the last record, which read as {records} more records", bytes(left)),
                 "the number of records at the beginning is too small: no master reads these",
             ),
             Fault::Rest { left, records: None, .. } => (
                 codes::CONCISE_TOO_LONG,
-                format!("{} more behind the last record", bytes(left)),
+                format!("{} more after the last record", bytes(left)),
                 "is this the right file? a concise DCF ends with its last record",
             ),
         };

@@ -13,7 +13,7 @@ const FORMAT: u32 = 1;
 /// So many bytes of a value are shown to people.
 const SHOWN: usize = 16;
 
-/// A concise DCF beside the dictionary of the device that gets it.
+/// A concise DCF together with the dictionary of the device that gets it.
 #[derive(Debug)]
 pub struct Listing<'a> {
     /// What the file is called.
@@ -91,8 +91,8 @@ impl<'a> Listing<'a> {
         format!("{whole:#}\n")
     }
 
-    /// The values that the records leave in the node, as settings for `odgen dcf --set-file`; what is no value of the device
-    /// stands in comments.
+    /// The values that the records leave in the node, as settings for `odgen dcf --set-file`; what is not a value of
+    /// the device is in comments.
     pub fn settings(&self) -> String {
         let mut text = format!("# {}", self.head());
         for (at, (record, reading)) in self.rows.iter().enumerate() {
@@ -122,7 +122,7 @@ impl<'a> Listing<'a> {
     }
 }
 
-/// A value as a setting has it; a text with a line break is none.
+/// A value as a setting has it; a text with a line break has no such form.
 fn setting(value: &Value) -> Option<String> {
     match value {
         Value::Integer(raw) => Some(raw.to_string()),
@@ -172,7 +172,7 @@ fn record_json(record: &Record<'_>, reading: &Reading) -> Json {
     })
 }
 
-/// A number as one, and what is none as the text that it is.
+/// A number as one, and anything else as the text that it is.
 fn raw(value: &Value) -> Json {
     match value {
         Value::Integer(raw) => match (u64::try_from(*raw), i64::try_from(*raw)) {

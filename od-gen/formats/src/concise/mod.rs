@@ -1,7 +1,7 @@
 //! Concise DCF (CiA 302-3): the SDO downloads that configure a node, in their order, as a master keeps them in object 1F22h.
 //!
 //! All numbers are little-endian. The number of records in 4 bytes, then for each its index (2 bytes), sub-index (1), number of
-//! bytes (4), and the value as it goes over the bus. There is no padding and nothing behind the last record.
+//! bytes (4), and the value as it goes over the bus. There is no padding and nothing after the last record.
 
 mod fault;
 mod listing;
@@ -66,7 +66,7 @@ pub struct Concise<'b> {
     pub stated: u32,
     /// The records in their order.
     pub records: Vec<Record<'b>>,
-    /// What is wrong behind the last of them.
+    /// What is wrong after the last of them.
     pub fault: Option<Fault>,
 }
 

@@ -48,7 +48,7 @@ pub enum Remark {
         /// What they allow.
         allowed: String,
     },
-    /// The value is none of its enum.
+    /// The value is not one of its enum.
     NotInEnum,
     /// The value is one that the device does not support.
     NotSupported,
@@ -192,7 +192,7 @@ fn wrong_value(entry: &Entry, value: &Value) -> Option<Remark> {
 pub struct Values<'b> {
     /// By entry; of several records of one entry the last counts.
     pub values: ParameterValues,
-    /// Records that are no values of the device: their entry is unknown, or its type has no value of their bytes.
+    /// Records that are not values of the device: their entry is unknown, or its type has no value of their bytes.
     pub left: Vec<Record<'b>>,
 }
 

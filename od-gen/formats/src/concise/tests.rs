@@ -62,7 +62,7 @@ fn each_fault_has_its_place() {
 }
 
 #[test]
-fn messages_tell_the_place() {
+fn messages_name_the_place() {
     let said = |bytes: &[u8]| read(bytes).fault.unwrap().diagnostic("a.bin").message;
     assert_eq!(
         said(&TWO[..23]),
@@ -70,7 +70,7 @@ fn messages_tell_the_place() {
     );
     assert_eq!(
         said(&TWO[..15]),
-        "`a.bin`, byte 0x000F: the file ends behind 1 of the 2 records that it says it has"
+        "`a.bin`, byte 0x000F: the file ends after 1 of the 2 records that it says it has"
     );
 }
 
@@ -96,7 +96,7 @@ proptest! {
     }
 
     #[test]
-    fn every_cut_is_noticed_and_what_stands_before_is_read(records in records(), at in any::<prop::sample::Index>()) {
+    fn every_cut_is_noticed_and_what_is_before_is_read(records in records(), at in any::<prop::sample::Index>()) {
         let bytes = laid_out(&records);
         let cut = at.index(bytes.len());
         let (whole, part) = (read(&bytes), read(&bytes[..cut]));

@@ -1,4 +1,4 @@
-//! A message: its identifier, who sends it, who takes it, and what it carries.
+//! A message: its identifier, its sender, its receivers, and what it carries.
 
 use od_spec::model::{Direction, EntryId, Index, SubIndex};
 
@@ -77,7 +77,7 @@ impl Identifier {
         }
     }
 
-    /// As the format has it: bit 31 tells that it has 29 bits.
+    /// As the format has it: bit 31 states that it has 29 bits.
     pub(super) const fn in_file(self) -> u32 {
         match self {
             Self::Standard(id) => id as u32,
@@ -87,7 +87,7 @@ impl Identifier {
 }
 
 impl Message {
-    /// A message that nobody known sends or takes, and that carries nothing.
+    /// A message that no known node sends or takes, and that carries nothing.
     pub(super) const fn of(owner: Owner, id: Identifier, name: String) -> Self {
         Self {
             owner,

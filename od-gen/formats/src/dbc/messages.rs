@@ -1,4 +1,4 @@
-//! The messages of a bus: who sends them, who takes them, and what they carry.
+//! The messages of a bus: their senders, their receivers, and what they carry.
 
 use std::collections::BTreeMap;
 
@@ -19,13 +19,13 @@ pub(super) struct Traffic {
     pub silent: BTreeMap<u8, Silent>,
 }
 
-/// The messages of a bus, and what is none.
+/// The messages of a bus, and what is not a message.
 pub(super) fn messages(nodes: &[Node<'_>]) -> Traffic {
     let mut bus = Bus::default();
     for message in services::messages(nodes) {
         bus.add(message);
     }
-    // Who sends a frame says what is in it; who takes it comes behind.
+    // The sender of a frame says what is in it; its receivers come after.
     for direction in [Direction::Transmit, Direction::Receive] {
         for node in nodes {
             for pdo in node.device.pdos_of(direction) {
@@ -37,7 +37,7 @@ pub(super) fn messages(nodes: &[Node<'_>]) -> Traffic {
     Traffic { messages: by_id.into_values().collect(), left_out, silent }
 }
 
-/// The states that an entry shows, or the commands that it takes, as all of its bits tell them.
+/// The states that an entry shows, or the commands that it takes, as all of its bits show them.
 fn coding_of_machines(node: &Node<'_>, id: EntryId) -> Option<String> {
     let machines = node.system.machines.values().filter(|machine| machine.devices.includes(&node.device.key));
     let lines = machines.flat_map(|machine| {

@@ -51,7 +51,7 @@ pub struct Written {
     pub silent: BTreeMap<u8, Silent>,
 }
 
-/// The PDOs of a node that do not exist, or carry nothing, until somebody sets their parameters.
+/// The PDOs of a node that do not exist, or carry nothing, until their parameters are set.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Silent {
@@ -110,7 +110,8 @@ impl fmt::Display for LeftOut {
     }
 }
 
-/// The DBC of a bus with these nodes, whose node-IDs differ. PDOs that are switched off or carry nothing are no messages.
+/// The DBC of a bus with these nodes, whose node-IDs differ. PDOs that are switched off or carry nothing are not
+/// messages.
 ///
 /// ```
 /// use od_formats::dbc::{Node, write};

@@ -9,7 +9,7 @@ use super::Node;
 
 /// Longest name that every tool takes.
 pub(super) const LONGEST: usize = 32;
-/// Longest name of a node, so that `_heartbeat` and `_RPDO512` have room behind it.
+/// Longest name of a node, so that `_heartbeat` and `_RPDO512` have room after it.
 const LONGEST_OF_NODE: usize = LONGEST - "_heartbeat".len();
 
 /// The name of a signal, whole and as the format takes it.
@@ -42,14 +42,14 @@ pub(super) struct Named {
 }
 
 impl Named {
-    /// What tells it from every other signal of a node: `_6041_0_b3`.
+    /// What distinguishes it from every other signal of a node: `_6041_0_b3`.
     fn number(&self) -> String {
         let EntryId { index, sub } = self.id;
         let bit = self.bit.map(|bit| format!("_b{bit}")).unwrap_or_default();
         format!("_{:04X}_{}{bit}", index.0, sub.0)
     }
 
-    /// The name with its number behind it, cut before the number where it is too long.
+    /// The name with its number after it, cut before the number where it is too long.
     fn numbered(&self, words: &Words, longest: usize) -> String {
         let number = self.number();
         let name = words.snake();

@@ -1,4 +1,5 @@
-//! The services beside PDOs: NMT, SYNC, TIME, EMCY, heartbeat. SDO is left to tools that know it: what it carries depends on the index.
+//! The services other than PDOs: NMT, SYNC, TIME, EMCY, heartbeat. SDO is left to tools that know it: what it carries
+//! depends on the index.
 
 use od_spec::model::{EntryId, ErrorCode, Index, SubIndex};
 
@@ -39,7 +40,7 @@ fn nmt_message(nodes: &[Node<'_>]) -> Message {
         receivers: nodes.iter().map(node_name).collect(),
         length: 2,
         signals: vec![command, node_id],
-        comment: "NMT: what the master tells one node or all".to_owned(),
+        comment: "NMT: what the master commands one node or all".to_owned(),
         ..Message::of(Owner::Bus("NMT"), Identifier::Standard(0), "NMT".to_owned())
     }
 }
@@ -103,7 +104,7 @@ fn emergency(node: &Node<'_>) -> Option<Message> {
     let mut signals = vec![Signal { values: codes, ..signal("EMCY_error_code", 0, 16) }];
     let (named, of_register): (Vec<_>, Vec<_>) = of_entry_at(node, ERROR_REGISTER, 8, 16).into_iter().unzip();
     let names = signal_names(&named).into_iter();
-    // It comes with a message; nothing of it stands there at the start.
+    // It comes with a message; nothing of it is there at the start.
     signals.extend(names.zip(of_register).map(|(name, signal)| Signal { name, start: None, ..signal }));
     signals.push(Signal {
         comment: "five bytes of the maker".to_owned(),

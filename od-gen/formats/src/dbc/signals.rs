@@ -23,7 +23,7 @@ pub(super) struct Signal {
     pub coding: Coding,
     /// Symbols per raw step, as a decimal.
     pub factor: String,
-    /// What the raw value 0 stands for, as a decimal.
+    /// What the raw value 0 means, as a decimal.
     pub offset: String,
     /// Smallest and largest value in the unit; "0" and "0" where nothing limits it.
     pub limits: (String, String),
@@ -79,7 +79,7 @@ impl Signal {
     }
 }
 
-/// The signals of a PDO as it is mapped; placeholders are none.
+/// The signals of a PDO as it is mapped; placeholders are not signals.
 pub(super) fn of_pdo(node: &Node<'_>, pdo: &Pdo) -> Vec<Signal> {
     let parts: Vec<(Named, Signal)> = pdo
         .fields()
@@ -172,7 +172,7 @@ fn of_field(
     signal
 }
 
-/// An entry that is one number; what is none, such as a text, is one to this format, too.
+/// An entry that is one number; anything else, such as a text, is one to this format, too.
 fn of_number(node: &Node<'_>, object: &Object, entry: &Entry, bits: (u32, u32)) -> Signal {
     let mut signal = Signal::unsigned(SignalName::plain(""), bits);
     let width = width(entry.data_type);

@@ -74,7 +74,7 @@ fn an_identifier_of_29_bits_is_marked() {
 }
 
 #[test]
-fn two_messages_with_one_identifier_are_told() {
+fn two_messages_with_one_identifier_are_reported() {
     let text = BUS.replace("cob-id: 0x1A2, map: [0x2001]", "cob-id: 0x1A2, map: [0x2002]");
     let (one, other) = (system(BUS), system(&text));
     let (first, _) = written(&[(3, &one, "valve"), (4, &one, "valve")]);
@@ -94,7 +94,8 @@ fn two_messages_with_one_identifier_are_told() {
     );
 }
 
-/// Names as long as the standards have them, names that are one in the characters of the format, and an entry that stands twice.
+/// Names as long as the standards have them, names that are one in the characters of the format, and an entry that is
+/// mapped twice.
 const NAMES: &str = "
 od-spec: 1
 title: Names

@@ -45,7 +45,7 @@ impl Lock {
     }
 }
 
-/// Behind the name of a value that the device does not support.
+/// After the name of a value that the device does not support.
 pub(crate) const NOT_SUPPORTED: &str = " (not supported)";
 
 /// Comments above an object's section.

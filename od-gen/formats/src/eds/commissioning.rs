@@ -6,7 +6,7 @@ use od_spec::model::{Dictionary, EntryId, Index, SubIndex, Value};
 
 use super::writer::SectionWriter;
 
-/// `[DeviceComissioning]`, in the standard's spelling. What people say about the node stands above it.
+/// `[DeviceComissioning]`, in the standard's spelling. What people say about the node is above it.
 pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, commissioning: &Commissioning) {
     let mut section = SectionWriter::new("DeviceComissioning", &commissioning.remarks);
     section.key("NodeID", commissioning.node);

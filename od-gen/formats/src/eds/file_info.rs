@@ -5,7 +5,8 @@ use od_spec::model::Dictionary;
 
 use super::writer::SectionWriter;
 
-/// `[FileInfo]` of a file under a name, with the comment that tells that it is generated. A DCF names the EDS that it was made from.
+/// `[FileInfo]` of a file under a name, with the comment that states that it is generated. A DCF names the EDS that it
+/// was made from.
 pub(super) fn write(document: &mut Document<'_>, device: &Dictionary, file: &str, last_eds: Option<&str>) {
     let info = &device.file;
     let mut section = SectionWriter::new("FileInfo", &[GENERATED.to_owned()]);

@@ -137,7 +137,7 @@ fn by_object(mut text: &[u8]) -> Vec<&[u8]> {
 /// `1A00`, and not `1A00sub1`.
 const INDEX_DIGITS: usize = 4;
 
-/// Where the section behind the first blank line begins.
+/// Where the section after the first blank line begins.
 fn end_of_section(text: &[u8]) -> Option<usize> {
     let blank = text.windows(BLANK_LINE.len()).position(|window| window == BLANK_LINE)?;
     Some(blank + BLANK_LINE.len())

@@ -8,7 +8,7 @@ use super::comments;
 use super::entry;
 use super::writer::{SectionWriter, entry_section, object_section, write_further};
 
-/// The list that an object stands in.
+/// The list that an object is in.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum List {
     Mandatory,
@@ -36,7 +36,7 @@ impl List {
     }
 }
 
-/// The three lists with their objects, and what a file says beside them; with the values of a node in a DCF.
+/// The three lists with their objects, and what a file says in addition to them; with the values of a node in a DCF.
 pub(super) fn write(
     document: &mut Document<'_>,
     system: &System,

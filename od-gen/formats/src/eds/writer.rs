@@ -66,7 +66,7 @@ impl SectionWriter {
         self.text(key, if value { "1" } else { "0" });
     }
 
-    /// Puts the section behind those of the document, with the keys that the file of the device has in it beside these.
+    /// Puts the section after those of the document, with further keys that the file of the device has in it.
     pub(super) fn finish(mut self, device: &Dictionary, document: &mut Document<'_>) {
         let keys = device.further.as_ref().and_then(|further| further.keys.get(self.0.name()));
         self.further(keys.into_iter().flatten());
@@ -84,7 +84,7 @@ impl SectionWriter {
     }
 }
 
-/// Writes the sections that the file of the device has beside those of the model.
+/// Writes the sections that the file of the device has in addition to those of the model.
 pub(super) fn write_further(document: &mut Document<'_>, further: &Further) {
     for FurtherSection { name, keys, .. } in further.all_sections() {
         let name = in_ascii(name);
@@ -116,7 +116,7 @@ const fn longest(key: &str) -> usize {
     LONGEST_LINE - 1 - key.len()
 }
 
-/// Whether readers find the text as it is behind a key.
+/// Whether readers find the text as it is after a key.
 fn fits(key: &str, text: &str) -> bool {
     is_printable(text) && text.len() <= longest(key) && !text.starts_with(' ') && !text.ends_with(' ')
 }
@@ -131,7 +131,7 @@ fn broken(comment: &str) -> Vec<Cow<'_, str>> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace().map(|word| word.get(..LONGEST_WORD).unwrap_or(word)) {
         match lines.last_mut() {
-            // The `;` counts, and the blanks in front of both words.
+            // The `;` counts, and the spaces in front of both words.
             Some(line) if 2 + line.len() + 1 + word.len() <= COMMENT_WIDTH => {
                 line.push(' ');
                 line.push_str(word);
@@ -143,7 +143,7 @@ fn broken(comment: &str) -> Vec<Cow<'_, str>> {
     lines.into_iter().map(Cow::Owned).collect()
 }
 
-/// Whether a comment fits a line as it is, with single blanks between its words.
+/// Whether a comment fits a line as it is, with single spaces between its words.
 fn is_line(comment: &str) -> bool {
     is_printable(comment)
         && (1..=COMMENT_WIDTH - 2).contains(&comment.len())
@@ -152,7 +152,7 @@ fn is_line(comment: &str) -> bool {
         && !has_two_blanks(comment.as_bytes())
 }
 
-/// Whether two blanks follow one another.
+/// Whether two spaces follow one another.
 fn has_two_blanks(text: &[u8]) -> bool {
     // Without an end in between, the compiler looks at many bytes at once.
     text.iter().zip(text.iter().skip(1)).filter(|pair| *pair == (&b' ', &b' ')).count() > 0
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn comments_stand_above_headers_and_lines_stay_short() {
+    fn comments_are_above_headers_and_lines_stay_short() {
         let mut document = Document::default();
         let mut section = SectionWriter::new("A", &[]);
         section.key("Name", "Größe");

@@ -6,7 +6,7 @@ use od_spec::visible::visible;
 
 use super::written;
 
-/// One workflow command for each message, in a line of its own; it shows the message beside the source line.
+/// One workflow command for each message, in a line of its own; it shows the message next to the source line.
 pub fn github(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
     written(diagnostics).map(|diagnostic| command(&diagnostic, sources) + "\n").collect()
 }

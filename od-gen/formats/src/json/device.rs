@@ -81,7 +81,7 @@ impl<'a> DeviceView<'a> {
     }
 }
 
-/// What the EDS says beside the facts of the model.
+/// What the EDS says in addition to the facts of the model.
 fn further_view(further: &Further) -> Json {
     let values = |keys: &[KeyValue]| {
         keys.iter().map(|one| (one.key.clone(), one.value.clone().into())).collect::<serde_json::Map<_, _>>()

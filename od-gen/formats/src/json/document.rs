@@ -37,7 +37,7 @@ struct SectionView<'a> {
     content: Vec<ContentView<'a>>,
 }
 
-/// What stands in a section, in order: the position of a table, or a text.
+/// What is in a section, in order: the position of a table, or a text.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum ContentView<'a> {

@@ -13,7 +13,7 @@ pub(super) struct UnitView<'a> {
     symbol: &'a str,
     /// One raw step in `symbol`, as numerator and denominator.
     scale: [Json; 2],
-    /// What the raw value 0 stands for, where that is not 0.
+    /// What the raw value 0 means, where that is not 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     offset: Option<[Json; 2]>,
     base: Option<Json>,

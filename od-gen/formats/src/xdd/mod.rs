@@ -1,8 +1,8 @@
 //! XDD and XDC files (CiA 311): what an EDS and a DCF say, in XML.
 //!
-//! Both show the same side of a device: the access, defaults and limits that its EDS shows. Beyond an EDS, texts stand in every
-//! language, and units, scales and named values have elements of their own. Elements that the schema declares at its top are
-//! qualified, those inside are not, as other programs write them.
+//! Both show the same side of a device: the access, defaults and limits that its EDS shows. Beyond an EDS, texts are in
+//! every language, and units, scales and named values have elements of their own. Elements that the schema declares at
+//! its top are qualified, those inside are not, as other programs write them.
 
 mod identity;
 mod network;

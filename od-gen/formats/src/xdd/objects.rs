@@ -1,4 +1,4 @@
-//! The list of objects, and the dummies and channels behind it.
+//! The list of objects, and the dummies and channels after it.
 
 use od_spec::model::{
     Access, DataType, DynamicChannel, Entry, EntryId, Object, ObjectKind, PdoMapping, Value,
@@ -149,7 +149,7 @@ fn limits(entry: &Entry) -> (Option<String>, Option<String>) {
     (of(low, real.low.as_ref()), of(high, real.high.as_ref()))
 }
 
-/// The access without the direction, which the mapping tells.
+/// The access without the direction, which the mapping states.
 const fn plain_access(access: Access) -> Access {
     match access {
         Access::Const | Access::Ro | Access::Wo | Access::Rw => access,
@@ -157,7 +157,7 @@ const fn plain_access(access: Access) -> Access {
     }
 }
 
-/// Into which PDOs an entry may be mapped; the access of an EDS tells the direction, too.
+/// Into which PDOs an entry may be mapped; the access of an EDS states the direction, too.
 const fn mapping(pdo: PdoMapping, access: Access) -> &'static str {
     match (pdo, access) {
         (PdoMapping::None, _) => "no",

@@ -30,14 +30,14 @@ impl Element {
     }
 }
 
-/// A document that is being printed, two blanks for each level.
+/// A document that is being printed, two spaces for each level.
 pub(super) struct Xml {
     text: String,
     depth: usize,
 }
 
 impl Xml {
-    /// The declaration, and comments behind it.
+    /// The declaration, and comments after it.
     pub(super) fn new(comments: &[&str]) -> Self {
         let mut xml = Self { text: "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n".to_owned(), depth: 0 };
         for comment in comments {
@@ -88,7 +88,7 @@ impl Xml {
     }
 }
 
-/// Where a text stands.
+/// Where a text is written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
     Attribute,
@@ -112,7 +112,7 @@ fn escape(out: &mut String, text: &str, place: Place) {
             ('<', _) => out.push_str("&lt;"),
             ('>', _) => out.push_str("&gt;"),
             ('"', Place::Attribute) => out.push_str("&quot;"),
-            // Readers make blanks or line feeds of these.
+            // Readers make spaces or line feeds of these.
             ('\r', _) | ('\n' | '\t', Place::Attribute) => {
                 let _ = write!(out, "&#{};", u32::from(c));
             }

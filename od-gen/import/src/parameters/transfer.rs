@@ -37,8 +37,8 @@ pub fn transfer(from: &Dictionary, node: &Commissioning, to: &Dictionary) -> Tra
     Transferred { node: taken, left_out }
 }
 
-/// Defaults that the file states otherwise than the specification, at entries that it does not set: nobody knows which of them
-/// the device has.
+/// Defaults that the file states otherwise than the specification, at entries that it does not set: it is unknown which
+/// of them the device has.
 fn other_defaults<'a>(
     from: &'a Dictionary,
     node: &'a Commissioning,

@@ -15,7 +15,7 @@ use super::remarks::{Remarks, Repair};
 pub(super) struct Style {
     /// Libraries that it uses.
     pub libraries: Vec<Arc<Library>>,
-    /// Whether common keys stand once, features bring objects, and PDOs stand under `pdos:`.
+    /// Whether common keys are written once, features bring objects, and PDOs are under `pdos:`.
     pub short: bool,
     /// PDOs whose parameter objects are written, as no key under `pdos:` says what they have.
     pub pdos_in_full: BTreeSet<(Direction, u16)>,
@@ -162,7 +162,7 @@ const fn is_line_safe(c: char) -> bool {
     !matches!(c, '\0'..='\u{1F}' | '\u{7F}'..='\u{9F}' | '\u{2028}' | '\u{2029}' | '\u{FEFF}' | '\u{FFFE}' | '\u{FFFF}')
 }
 
-/// A name, or with the first number behind it that makes it free.
+/// A name, or with the first number after it that makes it free.
 fn free_name(name: &str, is_free: impl Fn(&str) -> bool) -> String {
     let numbered = (2u32..).map(|number| format!("{name} {number}"));
     std::iter::once(name.to_owned()).chain(numbered).find(|name| is_free(name)).unwrap_or_default()

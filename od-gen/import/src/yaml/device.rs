@@ -1,4 +1,4 @@
-//! What stands before the objects: the file's header, the maker and the device.
+//! What is before the objects: the file's header, the maker and the device.
 
 use od_spec::model::{Date, DateTime, DynamicChannel};
 

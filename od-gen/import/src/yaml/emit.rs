@@ -12,8 +12,8 @@ const WIDTH: usize = 140;
 #[derive(Debug, Default)]
 pub(super) struct Written {
     pub text: String,
-    /// Byte ranges; what belongs together lies inside each other. They stand in the order of their ends, a part before what
-    /// it is a part of.
+    /// Byte ranges; what belongs together lies inside each other. They are in the order of their ends, a part before
+    /// what it is a part of.
     pub spots: Vec<(Range<usize>, Spot)>,
 }
 
@@ -97,7 +97,7 @@ fn nested(items: &[Item], indent: usize, out: &mut Written) {
     out.text.pop();
 }
 
-/// A value on one line; `None` where something stands above a part of it.
+/// A value on one line; `None` where something is above a part of it.
 fn flow(node: &Node) -> Option<Written> {
     let mut out = Written::default();
     match node {
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fits_stands_on_a_line() {
+    fn what_fits_is_on_a_line() {
         assert_eq!(write(&[Item::new("a", numbered(2))]).text, "a: {key1: value 1, key2: value 2}\n");
         let long = write(&[Item::new("a", numbered(20))]).text;
         assert!(long.starts_with("a:\n  key1: value 1\n") && long.ends_with("  key20: value 20\n"), "{long}");

@@ -140,7 +140,7 @@ pub(super) fn sub0(context: &Context<'_>, object: &Object, entry: &Entry) -> Key
         // It is an UNSIGNED8, and has no other keys.
         _ => false,
     };
-    // Its values are not told in a unit, by name or as those of another type, either.
+    // Its values are not written in a unit, by name or as those of another type, either.
     let mut plain = entry.clone();
     (plain.unit, plain.named_type, plain.data_type) = (None, None, DataType::Unsigned8);
     let keys = keys(context, object.index, &plain);

@@ -1,4 +1,4 @@
-//! What a device's EDS has beside the facts of the model, and what CANopenNode keeps of its objects.
+//! What a device's EDS has in addition to the facts of the model, and what CANopenNode keeps of its objects.
 
 use od_spec::eds::{Owner, cannot_hold, cannot_hold_section, owner};
 use od_spec::model::{Dictionary, EditorNotes, Index, KeyValue, Object};
@@ -66,7 +66,7 @@ fn is_number(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_digit()) && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
-/// `canopennode:`: objects one behind the other that say the same are one run.
+/// `canopennode:`: objects one after the other that say the same are one run.
 pub(super) fn canopennode(context: &Context<'_>) -> Option<Node> {
     let objects = context.device.objects.values();
     let noted = objects.filter_map(|object| {

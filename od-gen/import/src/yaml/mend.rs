@@ -49,7 +49,7 @@ impl Draft {
         }
     }
 
-    /// Leaves out what a message is about, which is written so: the fact, or where it is none that could be missing, the object.
+    /// Leaves out what a message is about, which is written so: the fact, or, where it must not be missing, the object.
     /// `None` where nothing can be done.
     pub(super) fn mend(&mut self, text: &str, spot: Spot, error: &Diagnostic) -> Option<Repair> {
         let mut repair = match spot {
@@ -58,7 +58,7 @@ impl Draft {
             Spot::Entry(_) | Spot::Object(_) => None,
         }
         .or_else(|| self.drop_object(spot.index()))?;
-        // What was written tells more than the model does, in the words of a specification.
+        // What was written says more than the model does, in the words of a specification.
         if let Some(fact) = repair.fact
             && let Some(value) = text.strip_prefix(fact.word()).and_then(|rest| rest.strip_prefix(": "))
         {

@@ -1,8 +1,8 @@
 //! Specifications: a model as the text that a person would write for it.
 //!
-//! What comes out compiles, and gives the model that went in. Objects that a library defines are taken from it, PDOs stand under
-//! `pdos:`, and what entries have in common is said once – each time only if the text then says the same. What the language
-//! refuses is left out or changed, as little as possible, and a comment tells what the model says.
+//! What comes out compiles, and gives the model that went in. Objects that a library defines are taken from it, PDOs
+//! are under `pdos:`, and what entries have in common is said once – each time only if the text then says the same.
+//! What the language refuses is left out or changed, as little as possible, and a comment states what the model says.
 
 mod compare;
 mod context;
@@ -130,7 +130,7 @@ pub fn specification(
     Ok(Specification { text, repairs: remarks.repairs, allowed, left_out })
 }
 
-/// Takes out what a specification made of an EDS does not have; tells what that was.
+/// Takes out what a specification made of an EDS does not have; returns what that was.
 fn leave_out(draft: &mut Draft) -> Vec<String> {
     let mut left_out = Vec::new();
     let mut say = |what: String, is_there: bool| left_out.extend(is_there.then_some(what));
@@ -173,7 +173,8 @@ fn withhold(draft: &mut Draft) {
     }
 }
 
-/// A specification has a title and its device a name, which no EDS shows; where the model has none, the product's stands in.
+/// A specification has a title and its device a name, which no EDS shows; where the model has none, the product's is
+/// used.
 fn name_device(draft: &mut Draft) {
     let (title, device) = (&mut draft.system.title, &mut draft.device);
     let named = |text: &str| !text.trim().is_empty();

@@ -1,5 +1,5 @@
-//! Names of objects and entries: kept as they are, with identifiers that tell equal ones apart. Only what a specification cannot
-//! hold is changed.
+//! Names of objects and entries: kept as they are, with identifiers that distinguish equal ones. Only what a
+//! specification cannot hold is changed.
 
 use std::collections::BTreeMap;
 
@@ -80,7 +80,7 @@ fn fit(device: &mut Dictionary, repairs: &mut Vec<Repair>) {
         for entry in &mut object.entries {
             let sub = entry.sub;
             let mut name = fitting(&entry.name, || format!("entry {sub}"));
-            // In an array, `{n}` would stand for the sub-index.
+            // In an array, `{n}` would mean the sub-index.
             if is_array {
                 name = name.replace("{n}", "(n)");
             }
@@ -96,7 +96,7 @@ fn rename(name: &mut String, now: String, place: Place, repairs: &mut Vec<Repair
     let because = if name.trim().is_empty() {
         "a name is wanted"
     } else if fitting(name, String::new) == *name {
-        "`{n}` stands for the sub-index"
+        "`{n}` means the sub-index"
     } else {
         "no line of an EDS holds the name as it is"
     };

@@ -33,7 +33,7 @@ pub(crate) struct Item {
     pub spot: Option<Spot>,
 }
 
-/// Two items say the same, whatever stands above them.
+/// Two items say the same, whatever is above them.
 impl PartialEq for Item {
     fn eq(&self, other: &Self) -> bool {
         self.key == other.key && self.value == other.value
@@ -76,7 +76,7 @@ impl Item {
 }
 
 impl Node {
-    /// The texts that stand under a key, wherever it stands.
+    /// The texts that are under a key, wherever it is.
     pub(crate) fn texts_under<'n>(&'n self, key: &str, found: &mut BTreeSet<&'n str>) {
         match self {
             Self::Text(_) | Self::Plain(_) => {}

@@ -40,7 +40,7 @@ pub(super) fn facts(id: EntryId, keys: Keys) -> Vec<Item> {
     keys.into_iter().map(item).collect()
 }
 
-/// What is said about an object as a whole: before its entries, and behind them.
+/// What is said about an object as a whole: before its entries, and after them.
 fn around(context: &Context<'_>, object: &Object) -> (Vec<Item>, Vec<Item>) {
     let item =
         |fact: Fact, node: Node| Item::new(fact.word(), node).about(Spot::ObjectFact(object.index, fact));
@@ -63,7 +63,7 @@ fn links(object: &Object) -> Option<Item> {
     (!object.links.is_empty()).then(|| links_of(object))
 }
 
-/// The keys of a VAR with its links, which stand before the description.
+/// The keys of a VAR with its links, which are before the description.
 pub(super) fn with_links(mut items: Vec<Item>, links: Option<Item>) -> Vec<Item> {
     let is_text = |item: &Item| [Fact::Warning.word(), Fact::About.word()].contains(&item.key.as_str());
     let texts = items.iter().position(is_text).unwrap_or(items.len());
@@ -91,7 +91,7 @@ fn sub0(context: &Context<'_>, object: &Object, above: &mut Vec<String>) -> Opti
     Some(Item { above: comments, ..item })
 }
 
-/// The entries behind sub-index 0, with the keys of each.
+/// The entries after sub-index 0, with the keys of each.
 fn entries(context: &Context<'_>, object: &Object) -> Vec<(u8, Keys)> {
     let entries = object.entries.iter().filter(|entry| entry.sub.0 != 0);
     entries.map(|entry| (entry.sub.0, entry::keys(context, object.index, entry))).collect()
@@ -141,7 +141,7 @@ fn record(context: &Context<'_>, object: &Object, fold: bool, above: &mut Vec<St
     items
 }
 
-/// Single entries by sub-index; comments of one that has nothing of its own stand above the object.
+/// Single entries by sub-index; comments of one that has nothing of its own are above the object.
 pub(super) fn single(
     context: &Context<'_>,
     object: &Object,

@@ -1,10 +1,10 @@
-//! What comes beside the model.
+//! What comes in addition to the model.
 
 use std::collections::BTreeMap;
 
 use od_spec::model::{EntryId, Index};
 
-/// What a specification is to say beside the facts of the model.
+/// What a specification is to say in addition to the facts of the model.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
     /// Comment lines at the top.

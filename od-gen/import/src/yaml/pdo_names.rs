@@ -31,7 +31,7 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// A pattern; `None` where the text is none.
+    /// A pattern; `None` where the text is not one.
     pub(super) fn new(text: impl Into<String>) -> Option<Self> {
         let text = text.into();
         NamePattern::parse(&text).ok().map(|pattern| Self { text, pattern })
@@ -104,7 +104,7 @@ fn candidates(named: &Named<'_>) -> Vec<String> {
     texts.into_iter().map(|text| text + &rest).collect()
 }
 
-/// Where numbers stand in a name that placeholders can stand for: the last ones, if there are many.
+/// Where numbers are in a name that placeholders can replace: the last ones, if there are many.
 fn spots(named: &Named<'_>) -> Vec<(Range<usize>, Vec<Placeholder>)> {
     let name = named.name;
     let run = |at: usize, of: fn(char) -> bool| {

@@ -1,4 +1,4 @@
-//! Why a PDO cannot stand under `pdos:`, and has its parameter objects written in full.
+//! Why a PDO cannot be under `pdos:`, and has its parameter objects written in full.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -146,7 +146,8 @@ fn can_only_change_in_part(object: &Object) -> bool {
         && entries.any(|is_writable| is_writable)
 }
 
-/// What is to be said above the first of the PDOs that stand in full for one reason, by communication parameter object.
+/// What is to be said above the first of the PDOs that are written in full for one reason, by communication parameter
+/// object.
 pub(super) fn remarks(context: &Context<'_>) -> BTreeMap<Index, String> {
     let mut by_reason: BTreeMap<(Direction, String), Vec<&Pdo>> = BTreeMap::new();
     if context.style.short {

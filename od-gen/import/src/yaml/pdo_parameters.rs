@@ -62,7 +62,7 @@ impl<'a> Parameter<'a> {
         Named { numbers, name: &self.entry.name }
     }
 
-    /// The same where the sub-index is no number that the name could count.
+    /// The same where the sub-index is not a number that the name could count.
     fn without_entry(self) -> Named<'a> {
         let Named { numbers, name } = self.named();
         Named { numbers: Numbers { entry: None, ..numbers }, name }
@@ -267,7 +267,7 @@ fn literal(name: &str) -> Node {
     Node::text(NamePattern::escape(name))
 }
 
-/// A name alone, or a map with the facts behind it.
+/// A name alone, or a map with the facts after it.
 fn composed(name: Option<Node>, facts: Vec<Item>) -> Option<Node> {
     if facts.is_empty() {
         return name;
@@ -276,7 +276,7 @@ fn composed(name: Option<Node>, facts: Vec<Item>) -> Option<Node> {
     Some(Node::Map(name.into_iter().chain(facts).collect()))
 }
 
-/// What is said beside names: what all have alike, and by PDO what they have not.
+/// What is said in addition to names: what all have alike, and by PDO what they have not.
 fn facts(list: &[Parameter<'_>]) -> (Vec<Item>, BTreeMap<u16, Vec<Item>>) {
     type Fact = fn(&Parameter<'_>) -> Option<Node>;
     let each: [(&str, Fact); 5] = [

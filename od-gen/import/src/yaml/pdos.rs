@@ -11,7 +11,7 @@ use super::pdo_parameters::{self, Parameters};
 use super::scalar::spelled;
 use super::texts::words;
 
-/// The PDOs that stand under `pdos:`; the parameter objects of any other are written in full.
+/// The PDOs that are under `pdos:`; the parameter objects of any other are written in full.
 pub(super) fn short<'a>(context: &Context<'a>) -> Vec<&'a Pdo> {
     if !context.style.short {
         return Vec::new();
@@ -144,7 +144,7 @@ struct Names {
 }
 
 impl Names {
-    /// The names that stand for one entry only, and need no quotes.
+    /// The names that mean one entry only, and need no quotes.
     fn of(context: &Context<'_>, pdos: &[&Pdo]) -> Self {
         let is_made = |index: u16| {
             pdos.iter().any(|pdo| [pdo.communication_index(), pdo.mapping_index()].contains(&index))

@@ -68,8 +68,8 @@ impl Remarks {
         Self { repairs: self.repairs.clone(), allowed: allowed.collect(), broken_with: BTreeSet::new() }
     }
 
-    /// Allows a rule to be broken, at an object if the finding is about a part of one. What is no error of a rule needs no
-    /// leave.
+    /// Allows a rule to be broken, at an object if the finding is about a part of one. What is not an error of a rule
+    /// needs no leave.
     pub(super) fn allow(&mut self, finding: &Diagnostic, spot: Option<Spot>) {
         if finding.code.severity != Severity::Error {
             return;

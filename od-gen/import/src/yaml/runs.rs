@@ -1,4 +1,4 @@
-//! Objects that are alike but for their number, written once.
+//! Objects that are alike except for their number, written once.
 
 use od_spec::model::Index;
 

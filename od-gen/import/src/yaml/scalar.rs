@@ -3,7 +3,7 @@
 /// Words that some reader of YAML takes for a truth value or for nothing.
 const WORDS: [&str; 10] = ["yes", "no", "on", "off", "true", "false", "null", "y", "n", "nan"];
 
-/// A text as YAML: plain where nobody can misread it, else in quotes.
+/// A text as YAML: plain where it cannot be misread, else in quotes.
 pub fn spelled(text: &str) -> String {
     if is_plain(text) {
         return text.to_owned();
@@ -35,7 +35,7 @@ fn escaped(c: char) -> String {
     }
 }
 
-/// Whether a character may stand in a YAML text as it is, on one line.
+/// Whether a character may be in a YAML text as it is, on one line.
 fn is_printable(c: char) -> bool {
     match c {
         ' '..='~' | '\u{A0}'..='\u{D7FF}' => !matches!(c, '\u{2028}' | '\u{2029}' | '\u{200B}'..='\u{200F}'),

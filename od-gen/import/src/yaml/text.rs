@@ -122,7 +122,7 @@ fn object_items(context: &Context<'_>, short_pdos: &[&Pdo]) -> (Vec<Item>, Vec<S
     (runs::fold(&items), chosen.features, used.collect())
 }
 
-/// Whether an object is just as the library has it, and nothing stands above it.
+/// Whether an object is just as the library has it, and nothing is above it.
 fn is_exact(item: &Item) -> bool {
     match &item.value {
         Node::Map(items) => items.len() == 1 && item.above.is_empty(),

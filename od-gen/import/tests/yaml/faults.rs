@@ -1,4 +1,4 @@
-//! Models with facts that the language refuses: the text compiles all the same, and tells what the model says.
+//! Models with facts that the language refuses: the text compiles all the same, and states what the model says.
 
 use od_import::yaml::{Place, Specification};
 use od_spec::model::{
@@ -52,7 +52,7 @@ const fn at(index: u16, sub: u8) -> Place {
     Place::Entry(EntryId { index: Index(index), sub: SubIndex(sub) })
 }
 
-/// What a repair is told to be about: its place, the fact, what the model says.
+/// What a repair is about: its place, the fact, what the model says.
 type Told<'a> = (Place, Option<Fact>, &'a str);
 
 /// A way to break the device, and what is changed for it.
@@ -191,11 +191,7 @@ const FAULTS: &[Fault] = &[
         &[(Place::Device, None, "OD0417")],
     ),
     ("no bit rate", |s| s.devices[0].info.bit_rates.clear(), &[(Place::Device, None, "OD0602")]),
-    (
-        "a bit rate that is none",
-        |s| s.devices[0].info.bit_rates.push(333),
-        &[(Place::Device, None, "OD0601")],
-    ),
+    ("not a valid bit rate", |s| s.devices[0].info.bit_rates.push(333), &[(Place::Device, None, "OD0601")]),
     (
         "granularity 0 of mappings that can change",
         |s| s.devices[0].info.granularity = 0,

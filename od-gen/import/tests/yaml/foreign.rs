@@ -1,4 +1,4 @@
-//! A device of another maker, as its EDS tells it: no units, no meanings, parameter objects of its own kind.
+//! A device of another maker, as its EDS describes it: no units, no meanings, parameter objects of its own kind.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Obstacles to a short text are known before it is written: beside each of them, the others stay short.
+//! Obstacles to a short text are known before it is written: next to each of them, the others stay short.
 //!
 //! An obstacle that is not foreseen would make the whole text plain, because no third text is compiled.
 
@@ -113,7 +113,7 @@ objects:
 }
 
 #[test]
-fn the_text_stays_short_beside_each_obstacle() {
+fn the_text_stays_short_next_to_each_obstacle() {
     for (what, objects, expected) in OBSTACLES {
         let system = model(&device(objects));
         let text = written(&system).text;
@@ -123,7 +123,7 @@ fn the_text_stays_short_beside_each_obstacle() {
 }
 
 #[test]
-fn a_count_of_another_type_is_told_and_the_text_stays_short() {
+fn a_count_of_another_type_is_reported_and_the_text_stays_short() {
     let mut system = model(&device(
         "0x2001: {name: steps, array: {count: 2, name: 'step {n}', type: unsigned8, access: rw}}",
     ));

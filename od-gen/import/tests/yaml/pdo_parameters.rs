@@ -35,7 +35,7 @@ pdos:
 {transmit}
 "
     ));
-    // As if somebody else had written it: no texts, and nothing about storage.
+    // As if another tool had written it: no texts, and nothing about storage.
     let mut foreign = system;
     for object in foreign.devices[0].objects.values_mut().filter(|object| object.origin == Origin::Pdo) {
         object.entries.iter_mut().for_each(|entry| {
@@ -230,7 +230,7 @@ fn storage_is_neither_added_nor_lost() {
         writable.for_each(|entry| entry.stored = Storage::Communication);
     }
     assert!(!kept(&system).contains("stored"));
-    // Of PDOs that disagree, some stand in full.
+    // Of PDOs that disagree, some are written in full.
     entry(&mut system, 0x1401, 1).stored = Storage::No;
     let specification = written(&system);
     assert_eq!(difference(&system, &model(&specification.text)), None);
@@ -250,7 +250,7 @@ fn where_nothing_stores_only_storage_is_said() {
 }
 
 #[test]
-fn what_has_no_key_stands_in_full_and_says_why() {
+fn what_has_no_key_is_in_full_and_says_why() {
     type Change = fn(&mut System);
     let changes: [(Change, &str); 10] = [
         (|s| object(s, 0x1401).kind = ObjectKind::Array, "no RECORD"),
@@ -289,7 +289,7 @@ proptest! {
         let mut system = device(count);
         name(&mut system, |pdo, index, sub| {
             let kind = usize::from(index >> 9 & 3);
-            // Each is unique by what stands in brackets, so that none has to be changed.
+            // Each is unique by what is in brackets, so that none has to be changed.
             match sub {
                 None => format!("{}[{kind}.{pdo}]", parts[kind]),
                 Some(sub) => format!("{}[{sub}]", parts[4 + (usize::from(pdo) + usize::from(sub)) % 4]),

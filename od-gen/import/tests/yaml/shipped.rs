@@ -31,7 +31,7 @@ fn stripped(mut system: System, key: &str) -> System {
 }
 
 /// The EDS of the device, section by section, each with the comments above it. Whether the maker or the standard states a default
-/// is not told apart: what both say is written once, with the library.
+/// is not distinguished: what both say is written once, with the library.
 fn sections(system: &System) -> Vec<String> {
     let eds = String::from_utf8(od_formats::eds::write_eds(system, &system.devices[0])).unwrap();
     let lines = eds.replace("\r\n;   ", " ").replace("default of the standard", "factory default");

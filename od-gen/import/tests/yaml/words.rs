@@ -22,7 +22,7 @@ fn other(c: char) -> char {
     }
 }
 
-#[expect(clippy::needless_pass_by_value, reason = "it is told so")]
+#[expect(clippy::needless_pass_by_value, reason = "it is called so")]
 fn otherwise(text: String) -> String {
     text.chars().map(other).collect()
 }

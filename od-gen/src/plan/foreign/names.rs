@@ -1,4 +1,4 @@
-//! Objects and entries that one identifier would name are told apart by their index and sub-index.
+//! Objects and entries that one identifier would name are distinguished by their index and sub-index.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +10,7 @@ use crate::plan::names::Words;
 /// How much of its own name something keeps; the next step is taken where two still clash.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Step {
-    /// Its name, and behind it the index or sub-index: `speed_2000`.
+    /// Its name, and after it the index or sub-index: `speed_2000`.
     Numbered,
     /// Nothing but its index or sub-index: `object_2000`.
     NumberOnly,
@@ -98,7 +98,7 @@ struct Claims {
 }
 
 impl Claims {
-    /// What the accessors of objects and the types of groups are called, with everything that may be printed beside them.
+    /// What the accessors of objects and the types of groups are called, with everything that may be printed with them.
     fn of_objects(device: &Dictionary, language: &dyn Language) -> Self {
         let mut claims = Self::default();
         for object in device.objects.values() {
@@ -131,7 +131,7 @@ impl Claims {
         claims
     }
 
-    /// What entries are called in their group and beside all others.
+    /// What entries are called in their group and among all others.
     fn of_entries(device: &Dictionary, language: &dyn Language) -> Self {
         let mut claims = Self::default();
         for object in device.objects.values() {
@@ -174,7 +174,7 @@ impl Claims {
     }
 }
 
-/// What may be printed beside the accessor of an object; which of it is settled when the values have their places.
+/// What may be printed with the accessor of an object; which of it is settled when the values have their places.
 fn companions(object: &Object) -> &'static [Companion] {
     if object.is_structured() { &[Companion::Setter, Companion::Mutable] } else { &[Companion::Setter] }
 }

@@ -124,7 +124,7 @@ impl Plan<'_> {
         }
     }
 
-    /// Writing an entry from inside the device: no access, lock or limit stands in the way.
+    /// Writing an entry from inside the device: no access, lock or limit is applied.
     fn setter(&self, entry: &PlannedEntry<'_>, name: &str, at: &At) -> TokenStream {
         let Place::Image(offset) = entry.place else { return self.alias_setter(entry, name, at) };
         let offset = Literal::usize_unsuffixed(offset);
@@ -139,7 +139,7 @@ impl Plan<'_> {
         let parameter = values.parameter_type(&entry.kind, &at.root);
         let limited = entry.entry.is_limited();
         let unchecked =
-            if limited { " The device's own values are not held against the limits." } else { "" };
+            if limited { " The device's own values are not checked against the limits." } else { "" };
         let about = doc(&format!("Sets [`{name}`](Self::{name}).{unchecked}"));
         let set = format_ident!("{}", setter(name));
         match error {
@@ -414,7 +414,7 @@ impl Plan<'_> {
     }
 }
 
-/// All elements, one behind the other.
+/// All elements, one after the other.
 fn all_elements(object: &PlannedObject<'_>, count: usize, value_type: &TokenStream) -> TokenStream {
     let about = doc(&format!("All elements of [`{0}`](Self::{0}), from sub-index 1 on.", object.name));
     let (get, all) = (format_ident!("{}", object.name), format_ident!("{}", elements(&object.name)));

@@ -164,7 +164,7 @@ impl Plan<'_> {
         format!("`{}` {}{end}{about}", object.index, escape(&object.name))
     }
 
-    /// The danger that comes from an object as a whole; the only entry of a VAR tells it itself.
+    /// The danger that comes from an object as a whole; the only entry of a VAR states it itself.
     fn object_warning(&self, object: &Object) -> String {
         if object.is_structured() { self.warning(&object.warning) } else { String::new() }
     }
@@ -231,7 +231,7 @@ fn condition(entry: &Entry) -> Option<String> {
     Some(format!("Writable while `{}`.", condition.text))
 }
 
-/// The errors that the entry shows beside those of its type.
+/// The errors that the entry shows in addition to those of its type.
 fn errors(entry: &Entry) -> Option<String> {
     let of_bit = |errors: &BitErrors| {
         let codes: Vec<String> = errors.error_codes().map(|code| format!("{code:04X}h")).collect();
@@ -255,7 +255,7 @@ fn common<'p>(entries: impl Iterator<Item = &'p PlannedEntry<'p>>) -> Vec<String
     common.unwrap_or_default()
 }
 
-/// Facts in one sentence, and others behind it.
+/// Facts in one sentence, and others after it.
 fn sentences(facts: &[String], more: &[String]) -> String {
     let mut text = facts.join(", ");
     if !text.is_empty() {

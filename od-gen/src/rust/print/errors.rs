@@ -9,7 +9,7 @@ use super::literal::hex;
 use crate::plan::{Plan, PlannedError};
 
 impl Plan<'_> {
-    /// The enum of errors, and of their priorities. "No error" is none.
+    /// The enum of errors, and of their priorities. "No error" is not an error.
     pub(super) fn error_type(&self) -> TokenStream {
         let errors: Vec<&PlannedError<'_>> =
             self.errors.iter().filter(|planned| planned.error.code != ErrorCode::NONE).collect();
@@ -155,7 +155,7 @@ impl Plan<'_> {
     }
 }
 
-/// A method that gives something for some errors; none where no error has it. What several give stands once.
+/// A method that gives something for some errors; none where no error has it. What several give is written once.
 fn method<'p>(
     name: &str,
     about: &str,

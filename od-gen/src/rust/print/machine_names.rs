@@ -9,7 +9,7 @@ pub(super) fn stem(name: &str) -> &str {
     name.trim_end_matches('_')
 }
 
-/// The variant of a transition: its number behind a letter.
+/// The variant of a transition: its number after a letter.
 pub(super) fn transition_variant(number: u8) -> proc_macro2::Ident {
     format_ident!("T{number}")
 }

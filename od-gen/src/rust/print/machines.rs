@@ -305,7 +305,7 @@ fn pattern(pattern: &BitPattern) -> (Literal, Literal) {
     (hex(mask, digits), hex(value, digits))
 }
 
-/// What makes a number of the word, if it is none yet.
+/// What makes a number of the word, if it is not yet one.
 fn converted(word: &TokenStream) -> Option<TokenStream> {
     (word.to_string() != "word").then(|| quote!(let word = #word;))
 }

@@ -34,7 +34,7 @@ impl Plan<'_> {
             .collect()
     }
 
-    /// A value of an object, or of `elements` in it, whose sub-index comes behind the number.
+    /// A value of an object, or of `elements` in it, whose sub-index comes after the number.
     fn values_by_number(
         &self,
         run: &PlannedRun,

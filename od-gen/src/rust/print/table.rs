@@ -167,7 +167,7 @@ impl Plan<'_> {
             }
             text.push('.');
             if constraint.partial {
-                text.push_str(" Only what can be told from this device.");
+                text.push_str(" Only what can be known from this device.");
             }
             let about = doc(&format!("{}: {about}\n\n{text}", escape(constraint.name)));
             let function = format_ident!("{}", constraint.function);

@@ -80,7 +80,7 @@ impl Plan<'_> {
         }
         let types = self.types.iter().map(|planned| self.named_type(planned));
         quote! {
-            /// Enums and bit fields: newtypes around raw values, also around those that nobody named.
+            /// Enums and bit fields: newtypes around raw values, also around those without a name.
             #[allow(dead_code, unreachable_pub)]
             pub mod types {
                 #(#types)*
@@ -195,7 +195,7 @@ impl Plan<'_> {
             is_first.then(|| special(planned, &self.numbers_of(planned)))
         });
         quote! {
-            /// Raw values with a meaning of their own, beside the ordinary ones.
+            /// Raw values with a meaning of their own, in addition to the ordinary ones.
             #[allow(dead_code, unreachable_pub)]
             pub mod specials {
                 #(#specials)*

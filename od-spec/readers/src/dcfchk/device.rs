@@ -85,7 +85,7 @@ fn entry<'t>(section: &'t Section<'_>, refusals: &mut Refusals) -> Option<Entry<
         refusals.add(section.header, Cause::Missing, "the access type of a listed entry");
     }
     if section.value("AccessType").is_some_and(str::is_empty) {
-        refusals.add(section.place("AccessType"), Cause::Value, "an access type that is none");
+        refusals.add(section.place("AccessType"), Cause::Value, "not a valid access type");
     }
     let Some(data_type) = section.value("DataType").and_then(|text| int(text, 0)) else {
         refusals.add(section.place("DataType"), Cause::Missing, "the data type of a listed entry");
@@ -96,11 +96,15 @@ fn entry<'t>(section: &'t Section<'_>, refusals: &mut Refusals) -> Option<Entry<
         .filter_map(|key| section.filled(key))
     {
         if !can_be_kept(data_type, &item.value) {
-            refusals.add(item.place, Cause::Number, "a value or limit of a listed entry that is no number");
+            refusals.add(
+                item.place,
+                Cause::Number,
+                "a value or limit of a listed entry that is not a number",
+            );
         }
     }
     if let Some(item) = section.filled("PDOMapping").filter(|item| int(&item.value, 0).is_none()) {
-        refusals.add(item.place, Cause::Number, "`PDOMapping` that is no number");
+        refusals.add(item.place, Cause::Number, "`PDOMapping` that is not a number");
     }
     let item = section.filled("ParameterValue").or_else(|| section.filled("DefaultValue"));
     let otherwise = if values::is_basic(data_type) { "0" } else { "" };
@@ -116,7 +120,7 @@ fn parse(entry: Entry<'_>, refusals: &mut Refusals) -> Option<i128> {
     let read = match value(entry.data_type, entry.value) {
         _ if !values::is_basic(entry.data_type) => None,
         Some(Value::Integer { number, has_node }) => Some(number + if has_node { NODE } else { 0 }),
-        // Nobody asks for the number of a REAL.
+        // The number of a REAL is not looked at.
         Some(Value::Real(_)) => Some(0),
         None => None,
     };

@@ -129,7 +129,7 @@ fn dummies(section: &Section<'_>, refusals: &mut Refusals) {
 fn list(ini: &Ini<'_>, section: &Section<'_>, refusals: &mut Refusals) {
     for item in &section.items {
         if !item.key.eq_ignore_ascii_case("SupportedObjects") && int(item.key, 10).is_none() {
-            refusals.add(item.place, Cause::Unknown, "a key of a list of objects that is no number");
+            refusals.add(item.place, Cause::Unknown, "a key of a list of objects that is not a number");
         }
     }
     let Some(count) = section.item("SupportedObjects") else {
@@ -178,7 +178,7 @@ fn elements(ini: &Ini<'_>, section: &Section<'_>, index: u16, refusals: &mut Ref
     if let Some(object) = object {
         match object.filled("CompactSubObj").map(|item| (int(&item.value, 0), item.place)) {
             Some((Some(number), _)) => count = number,
-            Some((None, place)) => refusals.add(place, Cause::Number, "a number of elements that is none"),
+            Some((None, place)) => refusals.add(place, Cause::Number, "not a valid number of elements"),
             None => {
                 refusals.add(
                     section.header,

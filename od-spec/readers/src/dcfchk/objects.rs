@@ -43,7 +43,7 @@ pub(super) fn object(ini: &Ini<'_>, section: &Section<'_>, index: u16, refusals:
         Some(_) | None => {}
     }
     if subs != 0 && elements != 0 {
-        let what = "`SubNumber` beside `CompactSubObj`";
+        let what = "`SubNumber` together with `CompactSubObj`";
         refusals.add(section.place("SubNumber"), Cause::Value, what);
     } else if (subs != 0 || elements != 0) && !is_structured {
         let key = if subs != 0 { "SubNumber" } else { "CompactSubObj" };
@@ -92,7 +92,7 @@ fn keys(section: &Section<'_>, refusals: &mut Refusals) {
         if !KEYS.contains(&key.as_str()) {
             refusals.add(item.place, Cause::Unknown, "a key of this name of an object");
         } else if key == "accesstype" && !ACCESS.contains(&item.value.to_lowercase().as_str()) {
-            refusals.add(item.place, Cause::Value, "an access type that is none");
+            refusals.add(item.place, Cause::Value, "not a valid access type");
         }
     }
     if section.item("ParameterName").is_none() {

@@ -42,7 +42,7 @@ pub(super) const fn is_basic(data_type: i128) -> bool {
     integer(data_type).is_some() || matches!(data_type, REAL32 | REAL64)
 }
 
-/// A number, behind a formula or alone: what the expression for values accepts.
+/// A number, after a formula or alone: what the expression for values accepts.
 fn formula(text: &str) -> Option<(&str, bool)> {
     let behind = text.get(..7).filter(|start| start.eq_ignore_ascii_case("$NODEID"));
     let (digits, has_node) = match behind {
@@ -93,14 +93,14 @@ const UNREADABLE: &str =
 pub(super) fn data_type(section: &Section<'_>, refusals: &mut Refusals) {
     let Some(item) = section.filled("DataType") else { return };
     let Some(data_type) = int(&item.value, 0) else {
-        return refusals.add(item.place, Cause::Number, "a data type that is no number");
+        return refusals.add(item.place, Cause::Number, "a data type that is not a number");
     };
     for key in ["LowLimit", "HighLimit"] {
         let Some(limit) = section.filled(key) else { continue };
         if is_basic(data_type) {
             check_limit(data_type, limit, refusals);
         } else {
-            refusals.add(limit.place, Cause::Value, "a limit of something that is no number");
+            refusals.add(limit.place, Cause::Value, "a limit of something that is not a number");
         }
     }
 }
@@ -160,14 +160,14 @@ pub(super) fn check_value(section: &Section<'_>, item: &Item<'_>, refusals: &mut
     let limit = |key| section.filled(key).map(|item| value(data_type, &item.value));
     let (low, high) = match (limit("LowLimit"), limit("HighLimit")) {
         (Some(None), _) | (_, Some(None)) if is_basic(data_type) => {
-            return refusals.add(item.place, Cause::Number, "a value beside a limit in another notation");
+            return refusals.add(item.place, Cause::Number, "a value and a limit in different notations");
         }
         (low, high) => (low.flatten(), high.flatten()),
     };
     if !is_basic(data_type) {
         return;
     }
-    // Alone, the node-ID is known in capitals only.
+    // Alone, the node-ID is known in upper case only.
     let is_misspelled = item.value != "$NODEID" && item.value.eq_ignore_ascii_case("$NODEID");
     match value(data_type, &item.value).filter(|_| !is_misspelled) {
         None => refusals.add(item.place, Cause::Number, UNREADABLE),

@@ -2,7 +2,7 @@
 //!
 //! It is draft-07: VS Code's YAML extension (and everything built on its language server) checks values by that
 //! draft only and does not know the keywords that came later. The schema needs none of those. Its one drawback
-//! is that a validator ignores what stands beside `$ref`; here that is always a description, which editors show
+//! is that a validator ignores what is next to `$ref`; here that is always a description, which editors show
 //! all the same.
 //!
 //! An editor does not see scalars as text, as the compiler does, but as YAML 1.2 types them: `0x6040` is the
@@ -199,7 +199,7 @@ fn at_least_one(item: Shape) -> Json {
     object([("type", text("array")), ("items", schema(item)), ("minItems", Json::Number(1))])
 }
 
-/// An empty value stands for an empty map: a section whose entries were all commented out holds nothing.
+/// An empty value represents an empty map: a section whose entries were all commented out holds nothing.
 fn map_of(kind: KeyKind, value: Shape) -> Json {
     let type_of = ("type", texts(["object", "null"]));
     match key_pattern(kind) {

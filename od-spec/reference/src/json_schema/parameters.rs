@@ -1,7 +1,7 @@
 //! The JSON Schema of the parameter files of one device: its entries by name and index, with their units, limits and values.
 //!
 //! An editor completes and explains with it. What it cannot see is the compiler's: limits of values in units, scales, conditions
-//! between entries, and names in other capitals.
+//! between entries, and names in another case.
 
 mod keys;
 mod values;
@@ -67,7 +67,7 @@ pub fn parameter_schema(system: &System, device: &Dictionary) -> String {
     printed(root)
 }
 
-/// A definition of an entry for each that may be set. Where a schema has several devices, `of` tells them apart.
+/// A definition of an entry for each that may be set. Where a schema has several devices, `of` distinguishes them.
 pub(super) fn definitions(of: &str, device: &Dictionary, language: &str) -> Vec<(String, Json)> {
     let entries = settable(device)
         .map(|(id, object, entry)| (name_of(of, id), values::entry(id, object, entry, device, language)));
@@ -77,7 +77,7 @@ pub(super) fn definitions(of: &str, device: &Dictionary, language: &str) -> Vec<
 /// What definitions begin with in the schema of one device.
 const ALONE: &str = "";
 
-/// The entries that a parameter file may set: commands are none of them, locked ones are, as they can be unlocked.
+/// The entries that a parameter file may set: commands are not among them, locked ones are, as they can be unlocked.
 fn settable(device: &Dictionary) -> impl Iterator<Item = (EntryId, &Object, &Entry)> {
     device.entries().filter(|(.., entry)| {
         let is_for_tools = entry.eds.access.is_writable() && !entry.eds.no_write;
@@ -193,7 +193,7 @@ pub(super) fn unlock(device: &Dictionary) -> Json {
     object([("type", text("array")), ("items", items)])
 }
 
-/// What stands under a key: an entry, or an object as a whole.
+/// What is under a key: an entry, or an object as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Named {
     Entry(EntryId),

@@ -115,7 +115,7 @@ fn replaced(table: &Keys, value: impl Fn(&str) -> Option<Json>) -> Vec<(&'static
         let ("properties", Json::Object(properties)) = (*name, member) else { continue };
         for (key, schema) in properties {
             if let (Some(known), Some(value)) = (table.get(key), value(key)) {
-                // What stands beside `$ref` is not looked at.
+                // What is next to `$ref` is not looked at.
                 *schema = object([("description", text(known.about)), ("allOf", Json::List(vec![value]))]);
             }
         }

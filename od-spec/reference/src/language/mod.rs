@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_table_stands_in_one_chapter() {
+    fn every_table_is_in_one_chapter() {
         let chapters = CHAPTERS.concat();
         for (mark, _) in marks() {
             assert_eq!(chapters.matches(&mark).count(), 1, "{mark}");

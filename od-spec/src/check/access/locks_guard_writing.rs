@@ -15,7 +15,7 @@ pub const CODE: &Code = &Code {
     id: "OD0414",
     severity: Severity::Error,
     foreign: Severity::Error,
-    title: "a lock on something nobody can write",
+    title: "a lock on something that cannot be written",
     explanation: "`locked` means that the entry can be written only after the device was unlocked for service. An entry that is never \
         writable needs no lock: either the access is wrong, and the entry could not be corrected in service, or the lock is a leftover. \
         Write `rw locked`, or drop `locked`.",
@@ -33,7 +33,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let help = subject.help(Help {
                 specification: "`locked` means \"writable only when unlocked\": write `rw locked`, or drop `locked`",
                 eds: &format!("correct {}, or remove the comment that it is writable when unlocked", subject.format.key(Key::Access)),
-                setting: "leave the entry out; nobody can write it",
+                setting: "leave the entry out; it cannot be written",
             });
             findings.push(subject.finding(CODE, id, entry, Fact::Access, message).help(help));
         }

@@ -14,8 +14,8 @@ const CODE: &Code = &Code {
     id: "OD0825",
     severity: Severity::Note,
     foreign: Severity::Note,
-    title: "a default value that nobody can read",
-    explanation: "The entry is `wo`: nobody can read it, so that nobody can compare its value with the default, and a tool that reads the device back after a download stops at it. \
+    title: "a default value that cannot be read back",
+    explanation: "The entry is `wo`: it cannot be read, so its value cannot be compared with the default, and a tool that reads the device back after a download stops at it. \
         That may be meant: a command has such a default where writing it does nothing. Otherwise leave the default out, or make the entry `rw`.",
     clause: Some("CiA 306, 4.6.3.2 (AccessType, DefaultValue)"),
     example: Some(Example::new(

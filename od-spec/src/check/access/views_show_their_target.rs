@@ -51,7 +51,7 @@ fn problem(view: &Entry, alias: &Alias, target: &Entry) -> Option<String> {
         return Some(format!("shows none of the values of {of}"));
     }
     let shown = |raw| convert(raw, alias.factor, alias.rounding, Outside::Abort, view.data_type);
-    // Whoever says what happens outside has seen that the view is narrow.
+    // The author of `outside:` has seen that the view is narrow.
     if let Some(default) = target.default.as_ref().and_then(Value::integer)
         && alias.outside == Outside::Saturate
         && fits(default, target.data_type)

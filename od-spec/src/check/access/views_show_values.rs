@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Error,
     title: "an alias of a command",
     explanation: "A view shows a value in another type, and turns what is written to it into that of its target: a number that the target cannot have becomes the nearest. Of a command there is \
-        no nearest; another number is another command, and what is read is no number that was written. The target is 1010h or 1011h, or carries `flags: [no-write]`. Remove the alias, or make \
+        no nearest; another number is another command, and what is read is not a number that was written. The target is 1010h or 1011h, or carries `flags: [no-write]`. Remove the alias, or make \
         it `access: ro`.",
     clause: None,
     example: Some(Example::new(

@@ -15,7 +15,7 @@ pub const CODE: &Code = &Code {
     foreign: Severity::Error,
     title: "not a CANopen bit rate",
     explanation: "CiA 301 defines 10, 20, 50, 125, 250, 500, 800 and 1000 kbit/s; an EDS has keys for these only, so that a master could never \
-        be told of another one. Write one of these.",
+        be given another one. Write one of these.",
     clause: Some("CiA 306, 4.5 ([DeviceInfo])"),
     example: Some(Example::new(
         "devices:\n  io: {name: Example, bit-rates: [100, 125], features: [heartbeat producer]}",

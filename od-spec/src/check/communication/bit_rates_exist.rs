@@ -30,9 +30,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         findings.push(
             Diagnostic::new(CODE, device.span, format!("device `{}` supports no bit rate", device.key))
                 .help(subject.help(Help {
-                    specification: "add `bit-rates:`, such as `[125, 250, 500, 1000]`; a PLC refuses a device without",
-                    eds: &format!("write 1 for each bit rate of the device, such as {}; a PLC refuses a device without", subject.format.set(Key::BitRate(125), "1")),
-                    setting: "the device has to tell its bit rates; a PLC refuses one without",
+                    specification: "add `bit-rates:`, such as `[125, 250, 500, 1000]`; a PLC refuses a device without them",
+                    eds: &format!("write 1 for each bit rate of the device, such as {}; a PLC refuses a device without them", subject.format.set(Key::BitRate(125), "1")),
+                    setting: "the device has to report its bit rates; a PLC refuses one without them",
                 })),
         );
     }

@@ -14,7 +14,7 @@ pub(crate) const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "an unusable COB-ID",
-    explanation: "The identifier of a PDO, of SYNC, TIME, EMCY or of an SDO channel beside the first has more than 11 bits or is kept for NMT, SDO, heartbeat \
+    explanation: "The identifier of a PDO, of SYNC, TIME, EMCY or of an SDO channel other than the first has more than 11 bits or is kept for NMT, SDO, heartbeat \
         or LSS. A message on such an identifier would disturb a service that every device relies on: a PDO with the identifier 0 stops nodes. A device \
         refuses it with abort code 0609 0030h. `cob-id:` is the identifier alone; the flag bits follow from `valid:` and `no-rtr:`. Write a free \
         identifier.",

@@ -19,9 +19,11 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "two services with one COB-ID",
-    explanation: "Two PDOs that are valid after start-up, a PDO or an SDO channel and SYNC, TIME or EMCY, the emergency message of another node (1028h) and one of these, or two of them \
-        use one identifier; an SDO client talks to the server of its own node. The device would disturb its own traffic, and a receiver would take one for the other. What is switched off \
-        uses none, and several RPDOs may listen to one message. Give one of them another identifier, or make the PDO `valid: no`.",
+    explanation: "Two PDOs that are valid after start-up, a PDO or an SDO channel and SYNC, TIME or EMCY, the \
+        emergency message of another node (1028h) and one of these, or two of them use one identifier; an SDO client \
+        talks to the server of its own node. The device would disturb its own traffic, and a receiver would take one \
+        for the other. What is switched off uses no identifier, and several RPDOs may listen to one message. Give one \
+        of them another identifier, or make the PDO `valid: no`.",
     clause: Some("CiA 301, tables 33 and 34 (pre-defined connection set)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {map: [level]}, 2: {cob-id: $NODEID + 0x180, map: [level]}}}",
@@ -42,7 +44,7 @@ enum Message {
     Emergency,
     /// The emergency message of this node, which the device listens to.
     EmergencyOf(u8),
-    /// Of an SDO server beside the first.
+    /// Of an SDO server other than the first.
     SdoServer,
     SdoClient,
     /// Of the SDO server that every node has.
@@ -55,7 +57,7 @@ impl Message {
     /// Whether two messages may have one identifier on a node.
     const fn may_be(self, other: Self, node: u8) -> bool {
         match (self, other) {
-            // Whoever sends it, all of them receive it.
+            // All of them receive it, whatever node sends it.
             (Self::Rpdo, Self::Rpdo) => true,
             // Its own, of which the device hears nothing.
             (Self::EmergencyOf(sender), Self::Emergency) | (Self::Emergency, Self::EmergencyOf(sender)) => {
@@ -197,7 +199,7 @@ fn users<'a>(subject: &Subject<'a>) -> Vec<User<'a>> {
     services.chain(senders).chain(first_channel).chain(channels(&subject)).chain(pdos).collect()
 }
 
-/// The two directions of each SDO channel beside the first; it exists while both are valid.
+/// The two directions of each SDO channel other than the first; it exists while both are valid.
 fn channels<'a>(subject: &Subject<'a>) -> impl Iterator<Item = User<'a>> {
     let subject = *subject;
     let exists = move |parameter: &Parameter<'_>| {
@@ -229,8 +231,8 @@ fn finding(subject: &Subject<'_>, first: &User<'_>, second: &User<'_>, node: u8)
         format!("{} and {} of `{}` have one COB-ID{on_node}", first.name, second.name, subject.device.key);
     let help = subject.help(Help {
         specification: "give one of them another COB-ID, or switch one off: for a PDO `valid: no` (bit 31)",
-        eds: "give one of them another COB-ID, or switch one off: bit 31, but for SYNC and TIME",
-        setting: "give one of them another COB-ID, or switch one off: bit 31, but for SYNC and TIME",
+        eds: "give one of them another COB-ID, or switch one off: bit 31 (except SYNC and TIME)",
+        setting: "give one of them another COB-ID, or switch one off: bit 31 (except SYNC and TIME)",
     });
     let diagnostic = Diagnostic::new(CODE, blamed.place, message).label(blamed.name.clone()).help(help);
     let diagnostic = Diagnostic { about: blamed.about, ..diagnostic };

@@ -17,7 +17,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "an index that is reserved",
     explanation: "1000h to 1FFFh belong to the standards; the object has an index among them that CiA 301 and CiA 302 do not use, or that only old devices had: 1004h, \
-        100Bh, 100Eh and 100Fh told the number of PDOs, the node-ID and the identifier of node guarding. A later version of a standard may give the \
+        100Bh, 100Eh and 100Fh held the number of PDOs, the node-ID and the identifier of node guarding. A later version of a standard may give the \
         index to something else. Move the object to 2000h to 5FFFh, or remove it. Where another standard defines it, such as CiA 304, say so under `allow:`.",
     clause: Some("CiA 301, table 47 (objects of the communication profile)"),
     example: Some(Example::new(
@@ -52,10 +52,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 format!("{index} ({}) is reserved; only older devices have it", object.name)
             }
             0x1000..0x1200 => {
-                format!("{index} ({}) lies among the objects of CiA 301, which has none there", object.name)
+                format!("{index} ({}) is among the objects of CiA 301, which defines none there", object.name)
             }
             _ => {
-                format!("{index} ({}) lies in the area of the standards, 1000h to 1FFFh", object.name)
+                format!("{index} ({}) is in the area of the standards, 1000h to 1FFFh", object.name)
             }
         };
         findings.push(

@@ -26,7 +26,7 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "a value that a communication object does not have",
-    explanation: "1003h.0, the number of errors, starts with 0 and can only be set to 0; what is read from 1010h and 1011h tells what the device can do, and is never the signature that is \
+    explanation: "1003h.0, the number of errors, starts with 0 and can only be set to 0; what is read from 1010h and 1011h shows what the device can do, and is never the signature that is \
         written to them; 1016h watches the nodes 1 to 127, each of them once; the SYNC counter of 1019h runs to 2 to 240, or is not sent (0); the formats 1 to 127 of 1022h and the \
         reactions 3 to 127 of 1029h are reserved; sub-index 3 of an SDO channel is a node-ID. A device refuses any other value, and a download at boot stops there. Write a value that \
         CiA 301 defines.",
@@ -55,7 +55,7 @@ fn problem(subject: &Subject<'_>, id: EntryId, entry: &Entry, raw: i128, node: u
         (0x1011, 1..) if raw == LOAD && !entry.is_set() => reported(SIGNATURE.0, SIGNATURE.1),
         (0x1016, 1..) if raw >> 16 > LAST_NODE => {
             let help = "write the node-ID, 1 to 127, in bits 23..16 and the time in ms in bits 15..0";
-            reported(&format!("{} is no node-ID", raw >> 16), help)
+            reported(&format!("{} is not a node-ID", raw >> 16), help)
         }
         (0x1016, 1..) => watched_twice(subject, id, entry, raw, node),
         // A value outside its limits is said by itself.
@@ -71,7 +71,7 @@ fn problem(subject: &Subject<'_>, id: EntryId, entry: &Entry, raw: i128, node: u
             reported(&format!("reaction {raw} is reserved"), help)
         }
         (0x1201..=0x12FF, 3) if raw > LAST_NODE => {
-            reported(&format!("{raw} is no node-ID"), "write the node-ID of the other side, 1 to 127")
+            reported(&format!("{raw} is not a node-ID"), "write the node-ID of the other side, 1 to 127")
         }
         _ => None,
     }

@@ -1,4 +1,4 @@
-//! Error codes that bits refer to stand in `errors:`, where a specification has such a list.
+//! Error codes that bits refer to are in `errors:`, where a specification has such a list.
 
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};

@@ -12,9 +12,10 @@ const CODE: &Code = &Code {
     id: "OD0828",
     severity: Severity::Warning,
     foreign: Severity::Note,
-    title: "a heartbeat that nobody sends",
-    explanation: "An entry of 1016h with a time but without a node-ID watches nobody, and an entry that names the node itself waits for a message that a device never hears of itself. \
-        Whoever wrote the time believes that a node is watched. Write the node-ID of the other node into bits 23 to 16, or the time 0.",
+    title: "a heartbeat that no node sends",
+    explanation: "An entry of 1016h with a time but without a node-ID watches no node, and an entry that names the \
+        node itself waits for a message that a device never receives from itself. The author of the time believes that \
+        a node is watched. Write the node-ID of the other node into bits 23 to 16, or the time 0.",
     clause: Some("CiA 301, object 1016h"),
     example: Some(Example::new(
         "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer, heartbeat consumer]}\nobjects:\n  0x1016: {from: cia301, array: {count: 1, elements: {1: {default: 1000}}}}",
@@ -30,9 +31,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             if time == 0 {
                 None
             } else if watched == 0 {
-                Some(format!("{time} ms of no node watch nobody"))
+                Some(format!("{time} ms without a node-ID watch no node"))
             } else if subject.node.is_some() && watched == i128::from(node) {
-                // A type may become any node; who makes it the one that it watches sets it otherwise.
+                // A type may become any node; a user who makes it the watched one sets it to another value.
                 Some(format!("node {node} would watch itself"))
             } else {
                 None

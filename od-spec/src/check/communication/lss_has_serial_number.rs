@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "LSS without a serial number",
-    explanation: "An LSS address consists of vendor, product, revision and serial number: without 1018h.4 no LSS master can tell two such devices apart. Add \
+    explanation: "An LSS address consists of vendor, product, revision and serial number: without 1018h.4 no LSS master can distinguish two such devices. Add \
         sub-index 4 to 1018h, or remove `lss: yes`.",
     clause: Some("CiA 301, object 1018h; CiA 305 (LSS address)"),
     example: Some(Example::new(

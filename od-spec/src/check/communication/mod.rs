@@ -1,4 +1,4 @@
-//! Identifiers, bit rates and the services of CiA 301 beside PDOs.
+//! Identifiers, bit rates and the services of CiA 301 other than PDOs.
 
 use super::rule::Rule;
 use crate::rules::rules;

@@ -14,8 +14,10 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "an SDO client between two servers",
-    explanation: "The client sends its requests to one node and waits for the answers of another, or sub-index 3 names a third. Requests on 600h + node-ID are for the first SDO channel of that \
-        node, which answers on 580h + the same node-ID: whoever waits elsewhere gets no answer and ends by a timeout. Write both identifiers, and sub-index 3, for the same node.",
+    explanation: "The client sends its requests to one node and waits for the answers of another, or sub-index 3 names \
+        a third. Requests on 600h + node-ID are for the first SDO channel of that node, which answers on 580h + the \
+        same node-ID: a client that waits elsewhere gets no answer and ends with a timeout. Write both identifiers, \
+        and sub-index 3, for the same node.",
     clause: Some("CiA 301, objects 1280h to 12FFh, table 34 (pre-defined connection set)"),
     example: Some(Example::new(
         "objects:\n  0x1280:\n    name: SDO client parameter\n    record:\n      1: {name: request, type: unsigned32, access: rw, default: 0x80000000}\n      2: {name: answer, type: unsigned32, access: rw, default: 0x80000000}\n      3: {name: server, type: unsigned8, access: rw, default: 1}\n# --set 1280.1=0x606\n# --set 1280.2=0x587\n# --set 1280.3=6",
@@ -31,7 +33,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         else {
             continue;
         };
-        // Whoever sets one of them is told there.
+        // A setting of one of them is reported there.
         let all = [Some(answer), Some(request), server.as_ref()];
         let blamed = all.into_iter().flatten().find(|parameter| parameter.entry.is_set()).unwrap_or(answer);
         let help = "write both identifiers and sub-index 3 for the same node";
@@ -41,7 +43,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     }
 }
 
-/// What is wrong with a channel on a node; identifiers that are not those of a first SDO channel tell of no server.
+/// What is wrong with a channel on a node; identifiers that are not those of a first SDO channel name no server.
 fn problem(
     request: &Parameter<'_>,
     answer: &Parameter<'_>,
@@ -50,7 +52,7 @@ fn problem(
 ) -> Option<String> {
     let identifier = |parameter: &Parameter<'_>| {
         let raw = parameter.value.integer_for(node)?;
-        // That 0 is no identifier is said by itself.
+        // That 0 is not an identifier is said by itself.
         (raw & NOT_VALID == 0 && raw != 0).then_some(raw)
     };
     let server_of = |id: i128, base: i128| (base + 1..=base + 127).contains(&id).then_some(id - base);

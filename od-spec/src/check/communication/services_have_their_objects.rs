@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "SYNC without its objects",
-    explanation: "A PDO has a synchronous transmission type (0 to 240, or 252), but the device has no 1005h, and no master can tell it which message is SYNC; or the \
+    explanation: "A PDO has a synchronous transmission type (0 to 240, or 252), but the device has no 1005h, and no master can set which message is SYNC; or the \
         device produces SYNC (bit 30 of 1005h), but has no 1006h for the period. Add the feature `sync consumer` or `sync producer`, or make the PDO \
         event-driven.",
     clause: Some("CiA 301, objects 1005h and 1006h"),
@@ -42,7 +42,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         findings.push(parameter.finding(CODE, message).help(subject.help(Help {
             specification: "add the feature `sync consumer` of `cia301`, or write another transmission type",
             eds: "add 1005h, the COB-ID of SYNC, or write another transmission type",
-            setting: "write another transmission type; nobody can tell the device which message is SYNC",
+            setting: "write another transmission type; no master can set which message is SYNC",
         })));
     }
     let Some(sync) = subject.parameter(SYNC, 0).filter(|sync| sync.raw() & PRODUCER != 0) else { return };

@@ -1,4 +1,4 @@
-//! The period of SYNC is longer than its message and than the window behind it.
+//! The period of SYNC is longer than its message and than the window after it.
 
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
@@ -21,7 +21,7 @@ const CODE: &Code = &Code {
     )),
 };
 
-/// Bits of a message without data, with the gap behind it and without stuff bits.
+/// Bits of a message without data, with the gap after it and without stuff bits.
 const MESSAGE: i128 = 47;
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {

@@ -117,7 +117,8 @@ fn demanded(constraint: &Constraint) -> Option<Vec<Link<'_>>> {
     }
 }
 
-/// Whether two constraints have a term in common. A number is none: what is compared with it has its ends in either.
+/// Whether two constraints have a term in common. A number is not a term: what is compared with it has its ends in
+/// either.
 fn have_common_term(links: &[Link<'_>], others: &[Link<'_>]) -> bool {
     let mut terms = links.iter().flat_map(|(left, _, right)| [*left, *right]);
     terms.any(|term| {

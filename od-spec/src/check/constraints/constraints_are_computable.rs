@@ -16,7 +16,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "a constraint that cannot be worked out",
     explanation: "The values at hand make a condition of the specification one that has no answer: it divides by 0, or its numbers are too large for fractions \
-        of 128 bits. Nobody can tell whether the device keeps it, so it guards nothing. Give the divisor another default, leave the division out \
+        of 128 bits. It cannot be decided whether the device keeps it, so it guards nothing. Give the divisor another default, leave the division out \
         (`a / b < 3` is `a < 3 * b` where `b` is positive), or say with `when:` in which case the condition counts.",
     clause: None,
     example: Some(Example::new(

@@ -159,7 +159,7 @@ fn finding(view: &View<'_>, constraint: &Constraint, broken: &Broken) -> Diagnos
             .label(format!("not {}", op.sign()))
             .help("correct a default or the condition; values are compared in physical units"),
     };
-    // Whoever sets a part of a ladder sees the whole of it: each value, once, wherever it is from.
+    // A setting of a part of a ladder is checked against the whole of it: each value, once, wherever it is from.
     let of_ladder = set.map_or(&[][..], |_| named.as_slice());
     let mut told: Vec<Span> = set.map(|set| set.place).into_iter().collect();
     for named in of_ladder {

@@ -1,4 +1,4 @@
-//! The device type of an I/O module tells which kinds of channels it has.
+//! The device type of an I/O module states which kinds of channels it has.
 
 use crate::check::device::device_type_is_kept::IO_MODULES;
 use crate::check::findings::Findings;
@@ -16,9 +16,10 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a device type with other channels than the device",
-    explanation: "For an I/O module (profile 401), bits 16 to 19 of 1000h tell whether it has digital inputs, digital outputs, analogue inputs and analogue outputs. Masters \
-        choose by them what they read and write. Here they say otherwise than the objects with the values: 6000h, 6020h, 6100h or 6120h; 6200h, 6220h, 6300h or 6320h; \
-        6400h to 6404h; 6410h to 6414h. Correct `device-type:`, or the objects.",
+    explanation: "For an I/O module (profile 401), bits 16 to 19 of 1000h show whether it has digital inputs, digital \
+        outputs, analogue inputs and analogue outputs. Masters use them to choose what they read and write. Here they \
+        differ from the objects with the values: 6000h, 6020h, 6100h or 6120h; 6200h, 6220h, 6300h or 6320h; 6400h to \
+        6404h; 6410h to 6414h. Correct `device-type:`, or the objects.",
     clause: Some("CiA 401, object 1000h"),
     example: Some(Example::new(
         "uses: [cia301, cia401]\ndevices:\n  io: {name: Example, bit-rates: [125], device-type: 0x0002_0191, features: [heartbeat producer, digital inputs 8-bit: 8]}\npdos: {io: {transmit: {1: {map: [0x6000.1]}}}}",
@@ -65,7 +66,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         return;
     }
     let message =
-        format!("the device type of `{}` tells of {}", subject.device.key, differences.join("; of "));
+        format!("the device type of `{}` shows {}", subject.device.key, differences.join("; "));
     let (high, low) = (expected >> 16, expected & 0xFFFF);
     let specification = format!("write `device-type: 0x{high:04X}_{low:04X}`, or correct the objects");
     let value = subject.format.set(Key::Default, &format!("0x{expected:08X}"));

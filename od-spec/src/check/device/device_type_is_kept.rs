@@ -61,7 +61,7 @@ pub(in crate::check) fn axes(subject: &Subject<'_>, profile: i128) -> Vec<Index>
 }
 
 /// The first index of each axis that is a drive, also where the device type names the first one alone: CiA 402 puts the objects
-/// of the next axis 800h behind.
+/// of the next axis 800h after.
 fn axes_with_objects(subject: &Subject<'_>) -> BTreeSet<Index> {
     let drives = axes(subject, DRIVES);
     let further = (1..AXES).map(|axis| Index(0x6000 + axis * AXIS)).filter(|first| {

@@ -30,7 +30,7 @@ const CODE: &Code = &Code {
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let (info, keys, vendor) = (&subject.device.info, subject.format, &subject.system.vendor);
     let says = |fact| subject.device.facts.get(fact).is_some();
-    // An EDS tells the device type in 1000h alone.
+    // An EDS states the device type in 1000h alone.
     let identity = [
         (entry_id(0x1000, 0), says(Fact::DeviceType), info.device_type, "the device type".to_owned()),
         (entry_id(0x1018, 1), vendor.number_span.is_some(), vendor.number, keys.key(Key::Vendor)),
@@ -72,14 +72,14 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                             "correct {key} in `[DeviceInfo]`, or {} of {id}",
                             keys.key(Key::Default)
                         ),
-                        setting: "leave the entry out; it tells what the device is",
+                        setting: "leave the entry out; it states what the device is",
                     })),
             );
         }
     }
 }
 
-/// What says the numbers beside the objects.
+/// What states the numbers in addition to the objects.
 const fn said_by(source: SystemSource) -> &'static str {
     match source {
         SystemSource::Specification => "the device",

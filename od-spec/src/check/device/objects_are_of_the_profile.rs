@@ -66,7 +66,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let names_none = !named.is_empty() && named.values().all(|one| *one == 0);
     let is_own = |object: &&Object| object.profile.is_none();
     if let Some(object) = objects().find(is_own).filter(|_| names_none) {
-        let message = format!("{} lies in the area of device profiles, of which none is named", object.index);
+        let message = format!("{} is in the area of device profiles, of which none is named", object.index);
         let more = objects().filter(is_own).count() - 1;
         let finding: Diagnostic = subject
             .object_finding(CODE, object, message)

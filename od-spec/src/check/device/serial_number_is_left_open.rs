@@ -13,8 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "one serial number for all devices",
-    explanation: "1018h.4 distinguishes two devices of one type. With a default, every device says the same number: LSS cannot give them node-IDs, and a master that compares the number takes a \
-        replaced device for the old one. Remove the default; firmware fills the number in.",
+    explanation: "1018h.4 distinguishes two devices of one type. With a default, every device reports the same number: \
+        LSS cannot give them node-IDs, and a master that compares the number takes a replaced device for the old one. \
+        Remove the default; firmware fills the number in.",
     clause: Some("CiA 301, object 1018h; CiA 305 (LSS address)"),
     example: Some(Example::new(
         "objects:\n  0x1018: {from: cia301, record: {4: {default: 12345}}}",

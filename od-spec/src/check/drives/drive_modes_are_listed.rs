@@ -17,8 +17,11 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a mode of operation that is not listed, or listed alone",
-    explanation: "A master looks into 6502h before it writes a mode into 6060h. Here 6060h or 6061h has a mode that 6502h does not list, or 6060h has an enum of the device's own without a mode \
-        that is listed. The master leaves out a mode that the drive has, or asks for one that it refuses. Under `modes:` of a bit, a name that is almost that of a mode is no mode's. Correct 6502h, the value, the enum, or the name. Modes of the maker's own, below 0, have no bit.",
+    explanation: "A master reads 6502h before it writes a mode into 6060h. Here 6060h or 6061h has a mode that 6502h \
+        does not list, or 6060h has an enum of the device's own without a mode that is listed. The master leaves out a \
+        mode that the drive has, or asks for one that it refuses. Under `modes:` of a bit, a name that is almost that \
+        of a mode is not a mode. Correct 6502h, the value, the enum, or the name. Modes of the maker's own, below 0, \
+        have no bit.",
     clause: Some("CiA 402, objects 6060h, 6061h and 6502h"),
     example: Some(Example::new(
         "uses: [cia301, cia402]\ndevices:\n  io: {name: Example, bit-rates: [125], device-type: 0x00020192, features: [heartbeat producer, drive]}\npdos:\n  io: {receive: {1: {map: [0x6040]}}, transmit: {1: {map: [0x6041]}}}\nobjects:\n  0x6060: {from: cia402, default: 6}\n  0x6502: {from: cia402, default: 0x0001_0000}",

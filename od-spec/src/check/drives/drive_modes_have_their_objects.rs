@@ -15,7 +15,7 @@ pub const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a mode of a drive without its objects",
-    explanation: "6502h tells masters which modes of operation a drive has, and CiA 402 has objects for each without which nobody can use it: a target position for positioning, a homing method for \
+    explanation: "6502h shows masters which modes of operation a drive has, and CiA 402 has objects for each without which it cannot be used: a target position for positioning, a homing method for \
         homing. Some of these are missing. Add them, with the feature of the mode, or clear the bit in 6502h. A drive without a value of 6502h says nothing about its modes.",
     clause: Some("CiA 402, objects of the modes of operation"),
     example: Some(Example::new(

@@ -29,7 +29,7 @@ const QUOTIENTS: [u16; 12] =
     [0x604B, 0x604C, 0x608F, 0x6090, 0x6091, 0x6092, 0x6093, 0x6094, 0x6095, 0x6096, 0x6097, 0x60A2];
 const INTERPOLATION_PERIOD: u16 = 0x60C2;
 const SUPPORTED_MODES: u16 = 0x6502;
-/// The bits of 6502h that stand for a mode of CiA 402 or of the maker.
+/// The bits of 6502h that represent a mode of CiA 402 or of the maker.
 const MODES: i128 = 0xFFFF_07EF;
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {

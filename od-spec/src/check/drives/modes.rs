@@ -22,7 +22,7 @@ const fn mode(value: i128, bit: u8, name: &'static str, objects: &'static [u16])
 }
 
 /// The modes about which sources agree; the eleventh, with the commutation angle, is in few of them. Objects that a library's feature has
-/// beside these belong to the mode, but no source calls them mandatory.
+/// next to these belong to the mode, but no source calls them mandatory.
 pub(in crate::check) const MODES: [Mode; 9] = [
     mode(1, 0, "profile position mode", &[0x6064, 0x607A, 0x6081, 0x6083, 0x6086]),
     mode(2, 1, "velocity mode", &[0x6042, 0x6043, 0x6044, 0x6046, 0x6048]),

@@ -13,9 +13,11 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "an error code of no class",
-    explanation: "The upper byte of an error code is its class, by which a master treats codes that it does not know: current (2xxxh), voltage (3xxxh), temperature (4xxxh), hardware (5xxxh), software (6xxxh), \
-        modules (7xxxh), monitoring (8xxxh), external (9xxxh), others (10xxh, F0xxh, FFxxh). 00xxh means that there is no error, so that a master takes such a code for the end of one; \
-        01xxh to 0Fxxh and Axxxh to Exxxh are no class. Take a code of the class of the error; those of the maker's own are FFxxh.",
+    explanation: "The upper byte of an error code is its class, by which a master treats codes that it does not know: \
+        current (2xxxh), voltage (3xxxh), temperature (4xxxh), hardware (5xxxh), software (6xxxh), modules (7xxxh), \
+        monitoring (8xxxh), external (9xxxh), others (10xxh, F0xxh, FFxxh). 00xxh means that there is no error, so a \
+        master takes such a code as the end of an error; 01xxh to 0Fxxh and Axxxh to Exxxh are not classes. Take a \
+        code of the class of the error; those of the maker's own are FFxxh.",
     clause: Some("CiA 301, table 21 (emergency error codes)"),
     example: Some(Example::new(
         "errors:\n  0xA123: {name: pump blocked}",

@@ -16,8 +16,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "automatic transitions that do not come to rest",
-    explanation: "A device makes an `automatic` transition as soon as what it does in the state is done. Two of them from one state to different states leave open which one it makes; several that lead round \
-        in a circle keep the device from ever resting in a state, and a master sees it change without end. Write `event` where something has to happen first, and say in `event:` what.",
+    explanation: "A device makes an `automatic` transition as soon as what it does in the state is done. Two of them from one state to different states leave open which one it makes; several that form a circle keep the device from ever resting in a state, and a master sees it change without end. Write `event` where something has to happen first, and say in `event:` what.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: command, type: unsigned8, access: rw}\n  0x2001: {name: status, type: unsigned8, access: ro}\nstate-machines:\n  pump:\n    status: status\n    command: command\n    states: {filling: {pattern: xxxx xxx0}, draining: {pattern: xxxx xxx1}}\n    transitions:\n      0: {from: start, to: filling, event: power-on}\n      1: {from: filling, to: draining, by-device: automatic, event: full}\n      2: {from: draining, to: filling, by-device: automatic, event: empty}",

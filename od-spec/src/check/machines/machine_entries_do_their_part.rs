@@ -17,9 +17,11 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "an entry that cannot do its part in a state machine",
-    explanation: "The status entry shows the state, and the command entry takes what a master asks for: the first must be readable and not constant, the second writable, and they are two entries, or each command \
-        would overwrite the state. Both begin as the machine does: a default of the command entry that gives a command moves the machine at power-on, before a master has asked for anything; a default \
-        of the status entry that belongs to another state shows what is not so. Correct the access or the default, or name another entry.",
+    explanation: "The status entry shows the state, and the command entry takes what a master asks for: the first must \
+        be readable and not constant, the second writable, and they are two entries, or each command would overwrite \
+        the state. Both begin as the machine does: a default of the command entry that gives a command moves the \
+        machine at power-on, before a master has asked for anything; a default of the status entry that belongs to \
+        another state shows a wrong state. Correct the access or the default, or name another entry.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: command, type: unsigned8, access: rw}\n  0x2001: {name: status, type: unsigned8, access: wo}\nstate-machines:\n  motor:\n    status: status\n    command: command\n    states: {stopped: {pattern: xxxx xxx0}, running: {pattern: xxxx xxx1}}",
@@ -74,7 +76,7 @@ fn check_access(machine: &StateMachine, status: &Entry, command: &Entry, finding
     }
 }
 
-/// The raw value that an entry starts with, where that is no formula.
+/// The raw value that an entry starts with, where that is not a formula.
 fn start_value(entry: &Entry) -> Option<u64> {
     let raw = match entry.default.as_ref()? {
         Value::Integer(raw) => *raw,
@@ -89,7 +91,7 @@ fn shows(pattern: &BitPattern, raw: u64) -> bool {
     raw & mask == value
 }
 
-/// Where the default of an entry stands; the machine, where a library says it.
+/// Where the default of an entry is; the machine, where a library says it.
 fn place(machine: &StateMachine, device: &Dictionary, entry: &Entry) -> Span {
     match entry.facts.get(Fact::Default) {
         Some(statement) if statement.author == Author::Maker => statement.span,
@@ -105,7 +107,7 @@ fn check_defaults(
     command: &Entry,
     findings: &mut Findings,
 ) {
-    // The state after power-on, and what the device goes through by itself behind it.
+    // The state after power-on, and what the device goes through by itself after it.
     let first = starts(machine).map(|start| start.to.as_str());
     let begun = Reach::over(machine, first, |one| one.by_device == ByDevice::Automatic);
     if begun.states().next().is_none() {

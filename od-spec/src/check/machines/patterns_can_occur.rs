@@ -164,7 +164,7 @@ pub(super) fn some_value(entry: &Entry, pattern: &BitPattern) -> Option<u64> {
         return None;
     }
     let (low, high) = (low.max(entry.low.unwrap_or(low)), high.min(entry.high.unwrap_or(high)));
-    // The numbers from 0 on, and those below, whose bits follow behind.
+    // The numbers from 0 on, and those below, whose bits follow after.
     let runs = [(low.max(0), high), (low, high.min(-1))];
     runs.into_iter().filter(|(first, last)| first <= last).find_map(|(first, last)| {
         pattern.smallest_from(raw(first)?).filter(|found| raw(last).is_some_and(|last| *found <= last))

@@ -15,8 +15,8 @@ pub const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a definition that nothing uses",
-    explanation: "A unit or type is defined but no entry refers to it. A leftover, or an entry lost its `unit:` or `type:`, and with it its scale or its \
-        meaning? Remove the definition, or use it.",
+    explanation: "A unit or type is defined but no entry refers to it. Is it a leftover, or has an entry lost its \
+        `unit:` or `type:`, and with it its scale or its meaning? Remove the definition, or use it.",
     clause: None,
     example: Some(Example::new(
         "units:\n  volt: {symbol: V}\nobjects:\n  0x2000: {name: voltage, type: unsigned8, access: ro}",

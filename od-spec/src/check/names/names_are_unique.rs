@@ -19,11 +19,11 @@ pub const CODE: &Code = &Code {
     id: "OD0303",
     severity: Severity::Error,
     foreign: Severity::Warning,
-    title: "a name stands for two things",
+    title: "a name has two meanings",
     explanation: "Names are how people, PDO mappings and generated code refer to things: objects of one device, entries of one object, values and bits of one \
         type, units and types each need a name of their own, also where an EDS writes it in ASCII. Otherwise a mapping or a parameter file could \
         reach another entry than its author had in mind. Give one of the two another name. Objects and entries may keep one name \
-        where `identifier:` tells them apart; references and code then use the identifier.",
+        where `identifier:` distinguishes them; references and code then use the identifier.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro}\n  0x2001: {name: level, type: unsigned8, access: ro}",
@@ -36,7 +36,7 @@ type ByName<'a> = BTreeMap<Cow<'a, str>, &'a Object>;
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for mut finding in found(subject) {
-        // CiA 306 lets names be equal; who then refers to one by name is told that several have it.
+        // CiA 306 lets names be equal; a reference by such a name is reported, with the entries that have it.
         if subject.system.source == SystemSource::Eds {
             finding.soften();
         }
@@ -134,7 +134,7 @@ fn same_entry_name(subject: &Subject<'_>, object: &Object, before: &Entry, entry
     let diagnostic = subject.finding(CODE, EntryId { index, sub: second }, entry, Fact::Name, message);
     if place == before_place {
         let help = subject.help(Help {
-            specification: "write `{n}` into the name or into `identifier:`; it stands for the sub-index",
+            specification: "write `{n}` into the name or into `identifier:`; it means the sub-index",
             eds: "give each entry of an object a name of its own",
             setting: "give each entry of an object a name of its own",
         });

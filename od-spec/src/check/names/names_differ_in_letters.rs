@@ -1,5 +1,5 @@
-//! Names in one list differ in their letters and digits: what differs in capitals and signs only is one name for people in a
-//! hurry, and in identifiers.
+//! Names in one list differ in their letters and digits: what differs in case and signs only is one name for people in
+//! a hurry, and in identifiers.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,11 +17,12 @@ pub const CODE: &Code = &Code {
     id: "OD0898",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "names that differ in nothing but capitals and signs",
-    explanation: "Things in one list, such as the error codes of a device, the states of a machine or the special values of an entry, have one name, or \
-        names that differ in capitals, blanks and signs only. People take one for the other, and generated code, whose identifiers consist of \
-        letters and digits, cannot distinguish them: there the same is an error. Give each a name of its own. Of a run of error codes, `{n}` in \
-        the name is replaced by the number.",
+    title: "names that differ only in case and signs",
+    explanation: "Things in one list, such as the error codes of a device, the states of a machine or the special \
+        values of an entry, have one name, or names that differ only in case, spaces and signs. Readers mistake one \
+        for the other, and generated code, whose identifiers consist of letters and digits, cannot distinguish them: \
+        there the same is an error. Give each a name of its own. Of a run of error codes, `{n}` in the name is \
+        replaced by the number.",
     clause: None,
     example: Some(Example::new(
         "errors:\n  0xFF01: {name: valve stuck}\n  0xFF02: {name: Valve stuck!}",
@@ -33,7 +34,7 @@ pub const CODE: &Code = &Code {
 type Named<'a> = (&'a str, Span);
 
 fn check(system: &System, findings: &mut Findings) {
-    // The names of an EDS are as they are; code tells them apart by their numbers.
+    // The names of an EDS are as they are; code distinguishes them by their numbers.
     if system.source == SystemSource::Eds {
         return;
     }
@@ -165,7 +166,7 @@ impl Lists<'_> {
             alike.entry(letters(named.0)).or_default().push(named);
         }
         for (letters, mut group) in alike {
-            // What has no letter at all has signs that people can tell apart.
+            // What has no letter at all has signs that readers can distinguish.
             if group.len() < 2 || letters.is_empty() && group.windows(2).all(|two| two[0].0 != two[1].0) {
                 continue;
             }
@@ -194,7 +195,7 @@ impl Lists<'_> {
         let message = if group.iter().all(|(other, _)| other == name) {
             format!("{count} {of} are named `{}`", shorten(name))
         } else {
-            format!("the names of {count} {of} differ in nothing but capitals, blanks and signs")
+            format!("the names of {count} {of} differ only in case, spaces and signs")
         };
         let name_at = |place: Span| {
             let named = group.iter().find(|(_, other)| *other == place);

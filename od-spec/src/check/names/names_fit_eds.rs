@@ -42,7 +42,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     }
 }
 
-/// The vendor's name stands in every EDS.
+/// The vendor's name is in every EDS.
 fn check_vendor(subject: &Subject<'_>, findings: &mut Findings) {
     let vendor = &subject.system.vendor;
     let Some(place) = vendor.name_span else { return };

@@ -1,4 +1,4 @@
-//! A text or octet string that is written into an EDS or DCF stands on one line and is read back as it is.
+//! A text or octet string that is written into an EDS or DCF is on one line and is read back as it is.
 
 use std::ops::ControlFlow;
 
@@ -18,7 +18,7 @@ pub const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "a value that a line of an EDS cannot hold",
-    explanation: "A string or octet string that an EDS or DCF shows stands on one line of 255 characters, without quotes and in ASCII. Blanks at its ends \
+    explanation: "A string or octet string that an EDS or DCF shows is on one line of 255 characters, without quotes and in ASCII. Spaces at its ends \
         are lost, `;`, `#` and `=` are misread by several readers, an empty text reads as no value, and `$NODEID`, which is a formula of an integer alone, as \
         the node-ID: a PLC would write something else than what is meant. Choose another value, or withhold the default from the EDS with `eds: {default: withheld}`.",
     clause: Some("CiA 306, 4.2"),
@@ -45,7 +45,7 @@ pub fn problem(text: &str, longest: usize) -> Option<String> {
     if written.len() > longest {
         return Some(format!("has {} characters, a line holds {longest}", written.len()));
     }
-    (text.trim() != text).then(|| "has blanks at its ends, which are lost".to_owned())
+    (text.trim() != text).then(|| "has spaces at its ends, which are lost".to_owned())
 }
 
 /// How a message names a character that several readers do not take as part of a value.
@@ -98,7 +98,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     }
 }
 
-/// Whether a text reads as a formula: only an integer has one, and a text stands as it is.
+/// Whether a text reads as a formula: only an integer has one, and a text is as it is.
 fn is_formula(text: &str) -> bool {
     text.to_ascii_uppercase().contains("$NODEID")
 }

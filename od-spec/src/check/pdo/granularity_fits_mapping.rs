@@ -1,4 +1,5 @@
-//! Granularity 0 means "no mapping can be changed", and nothing else does; placeholders are no shorter than the granularity.
+//! Granularity 0 means "no mapping can be changed", and nothing else does; placeholders are not shorter than the
+//! granularity.
 
 use crate::check::findings::Findings;
 use crate::check::help::Help;
@@ -16,7 +17,7 @@ pub const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "granularity against mapping",
-    explanation: "A granularity of 0 tells tools that no mapping can be changed; any other value that at least one can. The PDOs say the opposite, or a \
+    explanation: "A granularity of 0 means that no mapping can be changed; any other value that at least one can. The PDOs say the opposite, or a \
         placeholder of the device is shorter than its granularity: a tool would refuse to change a mapping that can be changed, or try where it cannot. \
         Correct `granularity:` or `dummies:` of the device, or `mapping:` of the PDOs.",
     clause: Some("CiA 306, 4.5 ([DeviceInfo], Granularity)"),

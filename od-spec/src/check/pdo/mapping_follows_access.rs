@@ -28,7 +28,7 @@ pub const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, _, entry) in subject.device.entries() {
-        // What follows from the entry behind a view is said there.
+        // What follows from the target of a view is reported there.
         let derived = |fact| entry.facts.is_said_by(fact, Author::Derived);
         if entry.alias.is_some() && derived(Fact::Mapping) && derived(Fact::Access) {
             continue;
@@ -44,7 +44,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     }
 }
 
-/// The mappings that an access allows beside none.
+/// The mappings, other than none, that an access allows.
 const fn allowed(access: Access) -> &'static [PdoMapping] {
     match access {
         Access::Const | Access::Ro | Access::Rwr => &[PdoMapping::Transmit],

@@ -34,7 +34,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     {
         return;
     }
-    let message = format!("`{}` says that it has multiplexed PDOs, but nothing of them is there", device.key);
+    let message = format!("`{}` says that it has multiplexed PDOs, but has no objects for them", device.key);
     let no = subject.format.set(Key::GroupMessaging, "0");
     findings.push(Diagnostic::new(CODE, device.place(Fact::GroupMessaging), message).help(subject.help(
         Help {

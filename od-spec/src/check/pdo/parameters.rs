@@ -16,7 +16,7 @@ pub(in crate::check) const SOURCE_ADDRESS: i128 = 254;
 /// As the number of mapped entries: a multiplexed PDO, whose messages name the entry that they are written to.
 pub(in crate::check) const DESTINATION_ADDRESS: i128 = 255;
 
-/// Whether a number of mapped entries is none, but makes the PDO a multiplexed one (CiA 301, 11.4).
+/// Whether a number of mapped entries is not a count, but makes the PDO a multiplexed one (CiA 301, 11.4).
 pub(in crate::check) const fn is_multiplexed(count: i128) -> bool {
     matches!(count, SOURCE_ADDRESS | DESTINATION_ADDRESS)
 }
@@ -29,7 +29,7 @@ pub(in crate::check) struct Parameter<'a> {
     pub entry: &'a Entry,
     /// Its value.
     pub value: &'a Value,
-    /// Where the value stands.
+    /// Where the value is written.
     pub place: Span,
     /// The node-ID of a configured node.
     node: Option<u8>,
@@ -81,7 +81,7 @@ impl<'a> Subject<'a> {
         object.map_or(0, |object| object.highest().0.into())
     }
 
-    /// All mapping parameters behind the count that have a value, used or not.
+    /// All mapping parameters after the count that have a value, used or not.
     pub(in crate::check) fn mapping(&self, pdo: &Pdo) -> impl Iterator<Item = Parameter<'a>> {
         let (subject, index) = (*self, pdo.mapping_index());
         let object = self.device.objects.get(&Index(index));
@@ -96,7 +96,7 @@ impl<'a> Subject<'a> {
             .filter(move |parameter| count.is_some_and(|count| i128::from(parameter.id.sub.0) <= count))
     }
 
-    /// Where a mapping as a whole is said: at a setting of it, or else where its count stands.
+    /// Where a mapping as a whole is reported: at a setting of it, or else where its count is.
     pub(in crate::check) fn mapping_place(&self, pdo: &Pdo) -> Span {
         let mut parameters = self.mapping(pdo).chain(self.mapping_count(pdo)).collect::<Vec<_>>();
         parameters.sort_by_key(|parameter| parameter.id);
@@ -105,7 +105,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// What a mapping parameter refers to; `None` for 0, an empty one, and for what is no mapping parameter.
+/// What a mapping parameter refers to; `None` for 0, an empty one, and for what is not a mapping parameter.
 pub(in crate::check) fn target(raw: i128) -> Option<Mapped> {
     Mapped::from_parameter(u32::try_from(raw).ok().filter(|raw| *raw != 0)?)
 }

@@ -18,10 +18,11 @@ pub const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "PDO settings that contradict each other",
-    explanation: "More entries are mapped than the PDO offers, fewer than it says, entries that are no multiple of the device's granularity, nothing \
-        at all in a mapping that cannot be changed; an RPDO forbids remote frames, which only a TPDO answers (bit 30 of an RPDO's COB-ID is \
-        reserved); or a SYNC start value that the counter, which runs to 240, never reaches. A device refuses such a parameter, or the PDO stays \
-        silent. The message tells which of them it is.",
+    explanation: "More entries are mapped than the PDO offers, fewer than it says, entries whose length is not a \
+        multiple of the device's granularity, nothing at all in a mapping that cannot be changed; an RPDO forbids \
+        remote frames, which only a TPDO answers (bit 30 of an RPDO's COB-ID is reserved); or a SYNC start value that \
+        the counter, which runs to 240, never reaches. A device refuses such a parameter, or the PDO stays silent. The \
+        message names the one that is meant.",
     clause: Some("CiA 301, objects 1400h, 1600h, 1800h and 1A00h (PDO parameters)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: rw, pdo: receive}\npdos:\n  io: {receive: {1: {no-rtr: yes, map: [level]}}}",
@@ -122,7 +123,7 @@ fn remote_frames(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
     };
     let message = format!("{}: an RPDO is not asked for by remote frames", parameter.id);
     let help = subject.help(Help {
-        specification: "leave out `no-rtr:`, and bit 30 of an RPDO's COB-ID 0; it is reserved",
+        specification: "leave out `no-rtr:`, and leave bit 30 of an RPDO's COB-ID at 0; it is reserved",
         eds: "leave bit 30 of an RPDO's COB-ID 0; it is reserved",
         setting: "leave bit 30 of an RPDO's COB-ID 0; it is reserved",
     });

@@ -14,8 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a mapping that can be changed in a PDO that cannot",
-    explanation: "A mapping is changed while its PDO does not exist (bit 31 of the COB-ID), so that nobody sees half of it; but this COB-ID is read-only. Most devices refuse the change \
-        with abort code 0601 0000h or 0609 0030h, and the mapping is fixed in truth. Make the COB-ID `rw`, or the mapping `ro`.",
+    explanation: "A mapping is changed while its PDO does not exist (bit 31 of the COB-ID), so that no node sees half \
+        of it; but this COB-ID is read-only. Most devices refuse the change with abort code 0601 0000h or 0609 0030h, \
+        so the mapping is in fact fixed. Make the COB-ID `rw`, or the mapping `ro`.",
     clause: Some("CiA 301, objects 1600h and 1A00h (procedure for changing a mapping)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\n  0x1800:\n    name: TPDO 1\n    record:\n      1: {name: COB-ID, type: unsigned32, access: ro, default: $NODEID + 0x180}\n      2: {name: transmission type, type: unsigned8, access: rw, default: 255}\n  0x1A00:\n    name: TPDO 1 mapping\n    sub0: {access: rw, default: 1}\n    record:\n      1: {name: mapped entry 1, type: unsigned32, access: rw, default: 0x2000_0008}",

@@ -16,9 +16,9 @@ const CODE: &Code = &Code {
     id: "OD0823",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "a PDO on an identifier that nobody expects",
+    title: "a PDO on an identifier that no node expects",
     explanation: "After start-up, the PDOs 1 to 4 of each direction have the identifiers of the pre-defined connection set (180h, 280h, 380h and 480h + node-ID of a TPDO, 200h to 500h + \
-        node-ID of an RPDO), and no other PDO exists, because nobody has reserved an identifier for it: it may be that of a PDO of another node. This PDO is valid on another \
+        node-ID of an RPDO), and no other PDO exists, because no standard has reserved an identifier for it: it may be that of a PDO of another node. This PDO is valid on another \
         identifier, so that it sends or receives before a master has given it one. Write the identifier of the set, or make the PDO not valid (bit 31).",
     clause: Some("CiA 301, table 34 (pre-defined connection set), objects 1400h and 1800h"),
     example: Some(Example::new(
@@ -50,7 +50,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 ),
                 None => (
                     format!(
-                        "{id}: {title} exists from the start, on {actual:X}h{}, which nobody has reserved for it",
+                        "{id}: {title} exists from the start, on {actual:X}h{}, which is not reserved for it",
                         subject.on_node(parameter.value, node)
                     ),
                     String::new(),

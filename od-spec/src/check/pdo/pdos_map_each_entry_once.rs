@@ -30,7 +30,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let Some(mapped) = target(parameter.raw()) else { continue };
             // Placeholders fill gaps, of which there may be several.
             let PdoTarget::Entry(mapped_id) = mapped.target else { continue };
-            // What is written through a view is the value of the entry behind it.
+            // What is written through a view is the value of its target.
             let view = subject.device.entry(mapped_id).and_then(|entry| entry.alias.as_ref());
             let id = match (view, pdo.direction) {
                 (Some(alias), Direction::Receive) => alias.target,

@@ -1,4 +1,4 @@
-//! Placeholders stand in RPDOs, and are of types that the device accepts there.
+//! Placeholders are in RPDOs, and are of types that the device accepts there.
 
 use crate::check::findings::Findings;
 use crate::check::help::Help;
@@ -45,12 +45,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             findings.push(
                 parameter.finding(CODE, message)
                     .help(subject.help(Help {
-                        specification: "list the type in the device's `dummies:`; placeholders stand in RPDOs only, in the length of their type",
+                        specification: "list the type in the device's `dummies:`; placeholders are in RPDOs only, in the length of their type",
                         eds: &format!(
-                            "write `Dummy{:04X}=1` if the device takes the type; placeholders stand in RPDOs only, in the length of their type",
+                            "write `Dummy{:04X}=1` if the device takes the type; placeholders are in RPDOs only, in the length of their type",
                             data_type.code()
                         ),
-                        setting: "map what the device takes; placeholders stand in RPDOs only, in the length of their type",
+                        setting: "map what the device takes; placeholders are in RPDOs only, in the length of their type",
                     })),
             );
         }

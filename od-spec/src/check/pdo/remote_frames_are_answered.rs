@@ -15,8 +15,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "a PDO that waits for what it forbids",
-    explanation: "The transmission types 252 and 253 send a TPDO when a remote frame asks for it, but bit 30 of its COB-ID (`no-rtr:`) says that it does not answer remote \
-        frames. Such a PDO is never sent, and a master that asks waits for an answer in vain. Remove `no-rtr:`, or write another transmission type.",
+    explanation: "The transmission types 252 and 253 send a TPDO when a remote frame asks for it, but bit 30 of its \
+        COB-ID (`no-rtr:`) says that it does not answer remote frames. Such a PDO is never sent, and a master that \
+        asks never gets an answer. Remove `no-rtr:`, or write another transmission type.",
     clause: Some("CiA 301, object 1800h (COB-ID, transmission type)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {transmission: 253, no-rtr: yes, map: [level]}}}",

@@ -16,7 +16,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a SYNC start value without effect",
-    explanation: "The SYNC start value (sub-index 6) tells a TPDO with which value of the SYNC counter it begins to count. It needs a transmission type that waits for SYNC, and a \
+    explanation: "The SYNC start value (sub-index 6) sets with which value of the SYNC counter a TPDO begins to count. It needs a transmission type that waits for SYNC, and a \
         device that knows the counter: 1019h, which says how far the counter runs. Otherwise the PDO begins with any SYNC; and a counter that never gets as far as the \
         start value leaves it silent for ever. An RPDO has no start. Write 0, or describe the counter.",
     clause: Some("CiA 301, objects 1019h and 1800h (SYNC start value)"),

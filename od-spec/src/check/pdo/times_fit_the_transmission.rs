@@ -15,9 +15,11 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a time that the PDO does not keep",
-    explanation: "Inhibit time (sub-index 3) and event timer (sub-index 5) tell when a TPDO is sent on an event, which it is with the transmission types 254 and 255 alone: one that waits \
-        for SYNC or a remote frame keeps neither. An RPDO has no inhibit time; its event timer watches for messages that fail to come. An event timer that is shorter than the inhibit time \
-        runs out while the PDO must not be sent. Whoever wrote the time expects what does not happen. Write 0, or the transmission type or time that was meant.",
+    explanation: "Inhibit time (sub-index 3) and event timer (sub-index 5) decide when a TPDO is sent on an event, \
+        that is, only with the transmission types 254 and 255: a TPDO that waits for SYNC or a remote frame uses \
+        neither. An RPDO has no inhibit time; its event timer watches for messages that fail to come. An event timer \
+        that is shorter than the inhibit time runs out while the PDO must not be sent. The author of the time expects \
+        an effect that it does not have. Write 0, or the transmission type or time that was meant.",
     clause: Some("CiA 301, objects 1400h and 1800h (inhibit time, event-timer)"),
     example: Some(Example::new(
         "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer, sync consumer]}\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {transmission: 1, event-timer: 100, map: [level]}}}",
@@ -101,6 +103,6 @@ fn outrun(subject: &Subject<'_>, pdo: &Pdo) -> Option<Diagnostic> {
             .with(other.place, if other.id == timer.id { "the event timer" } else { "the inhibit time" })
     };
     Some(diagnostic.help(
-        "let the event timer be as long as the inhibit time at least; it counts ms, the inhibit time 100 µs",
+        "make the event timer at least as long as the inhibit time; it counts ms, the inhibit time 100 µs",
     ))
 }

@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Error,
     title: "a reserved transmission type",
     explanation: "0 to 240 are synchronous, 254 and 255 event-driven, 252 and 253 answer remote frames (TPDOs only); 241 to 251 are reserved. A device \
-        refuses a reserved type with abort code 0609 0030h, or does what nobody foresees. Write one of the defined types.",
+        refuses a reserved type with abort code 0609 0030h, or behaves unpredictably. Write one of the defined types.",
     clause: Some("CiA 301, table 56 (transmission types)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {transmission: 245, map: [level]}}}",

@@ -14,8 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a PDO that is valid and maps nothing",
-    explanation: "After start-up the PDO exists, but no entry is mapped into it: some devices then send empty messages, others none, and a master that waits for it waits in vain. Map something, or write \
-        `valid: no` where a master is to map the entries; it switches the PDO off for that and on again anyhow.",
+    explanation: "After start-up the PDO exists, but no entry is mapped into it: some devices then send empty \
+        messages, others none, and a master that waits for it never receives it. Map something, or write `valid: no` \
+        where a master is to map the entries; it switches the PDO off for that and on again anyway.",
     clause: Some("CiA 301, objects 1600h and 1A00h (number of mapped objects)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {map: []}}}",
@@ -24,7 +25,7 @@ const CODE: &Code = &Code {
 };
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
-    // Whoever sets the number of a node's mapped entries to 0 switches the PDO off by that.
+    // Setting the number of a node's mapped entries to 0 switches the PDO off.
     if subject.node.is_some() {
         return;
     }

@@ -13,9 +13,10 @@ pub(crate) const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a parameter that is locked",
-    explanation: "The entry is writable only after the device was unlocked for service, which a PLC does not do at boot: the download would stop there. \
-        The value of a locked parameter was set in the factory, for this very machine. Leave the entry out. Who serves the machine, and unlocks the device, names the entry with \
-        `--unlock` or under `unlock:` of a parameter file.",
+    explanation: "The entry is writable only after the device was unlocked for service, which a PLC does not do at \
+        boot: the download would stop there. The value of a locked parameter was set in the factory, for this very \
+        machine. Leave the entry out. For service on an unlocked device, name the entry with `--unlock` or under \
+        `unlock:` of a parameter file.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: calibration, type: unsigned8, access: rw locked, default: 1}\n# --set 2000=5",
@@ -23,7 +24,7 @@ pub(crate) const CODE: &Code = &Code {
     )),
 };
 
-const HELP: &str = "leave the entry out, as a PLC cannot write it; for a service, name it with `--unlock` or under `unlock:`";
+const HELP: &str = "leave the entry out, because a PLC cannot write it; for service, name it with `--unlock` or under `unlock:`";
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, entry, place) in subject.set_entries().filter(|(_, entry, _)| entry.locked) {

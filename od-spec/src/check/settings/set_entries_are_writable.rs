@@ -30,7 +30,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         } else if !entry.locked && !entry.eds.access.is_writable() {
             (
                 format!("`{}` in the EDS", entry.eds.access.word()),
-                "leave the entry out; what reads the DCF takes the entry for one that cannot be written",
+                "leave the entry out; programs that read the DCF treat the entry as read-only",
             )
         } else {
             continue;

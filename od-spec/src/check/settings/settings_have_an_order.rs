@@ -14,9 +14,10 @@ pub const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "values that no order of writes brings into the device",
-    explanation: "Constraints and write conditions hold for the values as a whole, but not on the way to them: whichever is written first, the device refuses it with abort code \
-        0604 0043h or 0800 0022h, because the others still have their old values. A PLC writes one value after the other. Set an entry in between to a value that makes way, \
-        and the others in a second configuration; or choose values that the device can pass through.",
+    explanation: "Constraints and write conditions hold for the values as a whole, but not on the way to them: \
+        whichever is written first, the device refuses it with abort code 0604 0043h or 0800 0022h, because the others \
+        still have their old values. A PLC writes one value after the other. Set an entry to an intermediate value \
+        first, and the others in a second configuration; or choose values that the device can pass through.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: left share, type: unsigned8, access: rw, default: 50}\n  0x2001: {name: right share, type: unsigned8, access: rw, default: 50}\nconstraints:\n  shares make a whole: {require: \"0x2000 + 0x2001 == 100\"}\n# --set 2000=40\n# --set 2001=60",

@@ -15,9 +15,10 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "arrays of one thing that differ in length",
-    explanation: "Element 2 of a polarity, a filter or an error value belongs to element 2 of the inputs or outputs, and element 2 of 1F51h to program 2 of 1F50h. Where a describing array is longer \
-        than what it describes, its last elements act on nothing; where error mode and error value of outputs differ, some outputs have half of what they do on an error. Give the \
-        arrays one length.",
+    explanation: "Element 2 of a polarity, a filter or an error value belongs to element 2 of the inputs or outputs, \
+        and element 2 of 1F51h to program 2 of 1F50h. Where a describing array is longer than what it describes, its \
+        last elements act on nothing; where error mode and error value of outputs differ, some outputs have only half \
+        of their reaction to an error. Give the arrays one length.",
     clause: Some("CiA 401, objects 6000h to 6450h; CiA 302, objects 1F50h to 1F57h"),
     example: Some(Example::new(
         "uses: [cia301, cia302]\nobjects:\n  0x1F50: {from: cia302, array: {count: 2}}\n  0x1F51: {from: cia302, array: {count: 1}}",

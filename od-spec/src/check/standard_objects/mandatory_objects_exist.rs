@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a mandatory object is missing",
-    explanation: "Every CANopen device has 1000h, 1001h and 1018h; a master reads them at boot to know whom it talks to. `uses: [cia301]` brings them.",
+    explanation: "Every CANopen device has 1000h, 1001h and 1018h; a master reads them at boot to identify the device. `uses: [cia301]` brings them.",
     clause: Some("CiA 301, objects 1000h, 1001h and 1018h"),
     example: Some(Example::new(
         "uses: []\nobjects:\n  0x1017: {name: Producer heartbeat time, type: unsigned16, access: rw, default: 0}\ndevices:\n  io: {name: Example, bit-rates: [125]}",

@@ -1,4 +1,4 @@
-//! Objects that act on another one have it beside them.
+//! Objects that act on another one exist together with it.
 
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
@@ -38,7 +38,7 @@ const PARTNERS: [(u16, u16, &str); 13] = [
     (0x1F57, 0x1F50, "programs"),
     (0x1F80, 0x1F81, "list of slaves"),
 ];
-/// Tells whether the device is an NMT master, in bit 0.
+/// Shows whether the device is an NMT master, in bit 0.
 const NMT_STARTUP: u16 = 0x1F80;
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {

@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Error,
     title: "an object without its other half",
     explanation: "A PDO has a communication parameter (1400h, 1800h and following) and a mapping parameter (1600h, 1A00h and following); guard time and life time \
-        factor (100Ch, 100Dh) make the life time together; 1022h tells how 1021h is packed. With one of the two alone a master cannot configure the PDO, \
+        factor (100Ch, 100Dh) make the life time together; 1022h states how 1021h is packed. With one of the two alone a master cannot configure the PDO, \
         watch the node or read the EDS. Add the other object, or remove this one.",
     clause: Some("CiA 301, 9.2.1 (PDOs) and objects 100Ch, 100Dh, 1021h and 1022h"),
     example: Some(Example::new(

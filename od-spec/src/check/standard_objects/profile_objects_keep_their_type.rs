@@ -17,10 +17,13 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "an object that is not as its profile has it",
-    explanation: "The device type names profile 401 or 402, or the object is one of CiA 302, and it is an ARRAY or RECORD where the standard has a VAR or the other way round, has another data \
-        type, or can be written where it is read-only there, or not where a master writes it to every device: the outputs of an I/O module, the controlword of a drive. Masters know these \
-        objects by heart: they map a controlword of two bytes, and a drive that has four refuses the mapping. Where versions of a profile or the devices on the market disagree about an \
-        object, nothing is said. Take the object from the library with `from: cia402`, or correct it.",
+    explanation: "The device type names profile 401 or 402, or the object is one of CiA 302, and it is an ARRAY or \
+        RECORD where the standard has a VAR or the other way round, has another data type, or can be written where it \
+        is read-only there, or not where a master writes it to every device: the outputs of an I/O module, the \
+        controlword of a drive. Masters do not look into the EDS for these objects: they map a controlword of two \
+        bytes, and a drive that has four refuses the mapping. Where versions of a profile or the devices on the market \
+        disagree about an object, nothing is said. Take the object from the library with `from: cia402`, or correct \
+        it.",
     clause: Some("CiA 302, CiA 401 and CiA 402, object dictionaries"),
     example: Some(Example::new(
         "uses: [cia301, cia402]\ndevices:\n  io: {name: Example, bit-rates: [125], device-type: 0x00020192, features: [heartbeat producer, drive]}\npdos:\n  io: {receive: {1: {map: [0x6040]}}, transmit: {1: {map: [0x6041]}}}\nobjects:\n  0x6502: {from: cia402, default: 0x0001_0000}\n  0x607A: {name: target position, type: unsigned32, access: rw}",
@@ -72,7 +75,7 @@ impl Profile {
                     ..=0x6426 | 0x6443 | 0x6444
             ),
             (Self::Managers, SystemSource::Specification) => index.0 == 0x1F25,
-            // Which standards beside CiA 301 an EDS follows it does not say.
+            // An EDS does not say which standards other than CiA 301 it follows.
             (Self::Managers, SystemSource::Eds) => true,
         }
     }

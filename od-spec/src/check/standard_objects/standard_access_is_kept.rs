@@ -16,7 +16,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "a standard object with another access",
     explanation: "An entry of the communication profile can be written where CiA 301 has it read-only, cannot be read or written where it must, or is mappable where \
-        it is not. A device may make most of what is `rw` read-only; the other way round a tool finds parameters that are none, and writes the identity or the \
+        it is not. A device may make most of what is `rw` read-only; the other way round a tool finds parameters where there are none, and writes the identity or the \
         device type of the device. Correct the access, or take the object from the library with `from: cia301`.",
     clause: Some("CiA 301, 9.5.1 and the descriptions of the objects 1000h to 1FFFh"),
     example: Some(Example::new(
@@ -70,8 +70,8 @@ fn access(object: &Object, entry: &Entry, known: &Entry) -> Option<(String, Fact
     Some((problem, Fact::Access))
 }
 
-/// What an entry is mapped as although CiA 301 does not have it so, whoever describes it: no departure from the standard makes
-/// process data of a parameter.
+/// What an entry is mapped as although CiA 301 does not have it so, whichever file describes it: no departure from the
+/// standard makes process data of a parameter.
 fn mapping(object: &Object, entry: &Entry, known: &Entry) -> Option<(String, Fact)> {
     // CiA 301 leaves it to the device whether these are mappable.
     let is_free = matches!(object.index.0, 0x1001 | 0x1002 | 0x1013 | 0x1026);

@@ -82,7 +82,7 @@ fn unknown(object: &Object) -> Option<(String, String)> {
     let stranger = object.counted().find(|entry| entry.sub.0 > highest)?;
     let message =
         format!("{index}.{} ({}) is not defined: {index} has {highest} at most", stranger.sub, stranger.name);
-    let help = "remove the entry; what is the maker's own belongs into 2000h to 5FFFh".to_owned();
+    let help = "remove the entry; the maker's own entries belong in 2000h to 5FFFh".to_owned();
     Some((message, help))
 }
 

@@ -17,9 +17,10 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "a standard object of another type",
-    explanation: "An object of the communication profile is no VAR, ARRAY or RECORD as CiA 301 says, or an entry of it has another data type. Masters know these \
-        objects by heart and do not look into the EDS for them: a write of two bytes into an entry of four is refused with abort code 0607 0010h, and \
-        the boot-up of the node ends there. Take the object from the library with `from: cia301`, or correct it.",
+    explanation: "An object of the communication profile has another object type (VAR, ARRAY or RECORD) than CiA 301 \
+        says, or an entry of it has another data type. Masters do not look into the EDS for these objects: a write of \
+        two bytes into an entry of four is refused with abort code 0607 0010h, and the boot-up of the node ends there. \
+        Take the object from the library with `from: cia301`, or correct it.",
     clause: Some("CiA 301, table 47 and the descriptions of the objects 1000h to 1FFFh"),
     example: Some(Example::new(
         "objects:\n  0x1002: {name: Manufacturer status register, type: unsigned16, access: ro}",

@@ -17,7 +17,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "stored, but nothing stores",
     explanation: "An entry is saved by a \"store parameters\" command that the device does not have: 1010h lacks the sub-index of its group (2 communication, \
-        3 application, 4 manufacturer). Whoever sets it would find it lost after the next power-off. Add the feature `store parameters`, or \
+        3 application, 4 manufacturer). Its value would be lost after the next power-off. Add the feature `store parameters`, or \
         correct `stored:`. The parameters of PDOs of which nothing is said are stored where the device can do that, and do not count.",
     clause: Some("CiA 301, object 1010h"),
     example: Some(Example::new(
@@ -34,7 +34,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             continue;
         }
         let stored = |entry: &crate::model::Entry| entry.stored == group;
-        // What nobody says of a parameter of a PDO follows from the commands that there are.
+        // What is not stated about a parameter of a PDO follows from the commands that there are.
         let mut entries = device.entries().filter(|(_, object, entry)| {
             !object.role().is_pdo_parameter() || entry.facts.get(Fact::Storage).is_some()
         });

@@ -1,4 +1,4 @@
-//! Sub-index 0 tells the highest sub-index, where its value is fixed.
+//! Sub-index 0 holds the highest sub-index, where its value is fixed.
 
 use crate::check::findings::Findings;
 use crate::check::help::Help;

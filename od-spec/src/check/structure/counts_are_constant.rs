@@ -1,4 +1,4 @@
-//! Sub-index 0 of an array or record tells a number that nothing changes.
+//! Sub-index 0 of an array or record holds a number that nothing changes.
 
 use crate::check::findings::Findings;
 use crate::check::help::Help;
@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a count that is not constant",
-    explanation: "Sub-index 0 tells the highest sub-index of an array or record and is read-only; only the error history (1003h) and PDO mappings are told their number by a master. \
+    explanation: "Sub-index 0 holds the highest sub-index of an array or record and is read-only; only the error history (1003h) and PDO mappings get their number from a master. \
         Here it can be written, can be mapped, or has no value: a tool would offer it as a parameter, or not know how far to read. Remove `access:` and `pdo:` from `sub0:`; \
         a number of elements in use is an entry of its own.",
     clause: Some("CiA 301, 9.5.3.1 (sub-index 0)"),
@@ -38,10 +38,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let told = is_told(object);
         let problem = if count.access.is_writable() && !told {
             let what =
-                format!("{id} is `{}`, although it only tells the highest sub-index", count.access.word());
+                format!("{id} is `{}`, although it only holds the highest sub-index", count.access.word());
             Some((what, Fact::Access, format!("write {}", keys.set(Key::Access, "ro"))))
         } else if count.pdo != PdoMapping::None {
-            let what = format!("{id} is mappable, although it only tells the highest sub-index");
+            let what = format!("{id} is mappable, although it only holds the highest sub-index");
             Some((what, Fact::Mapping, format!("write {}", keys.set(Key::Mapping, "0"))))
         } else if count.default.is_none() && !told {
             let what = format!("{id} does not say which the highest sub-index is");
@@ -53,7 +53,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let help = subject.help(Help {
                 specification: "remove what `sub0:` says about it; type, access and value follow",
                 eds: &eds,
-                setting: "leave the entry out; it tells the highest sub-index",
+                setting: "leave the entry out; it holds the highest sub-index",
             });
             findings.push(
                 subject

@@ -14,9 +14,10 @@ pub const CODE: &Code = &Code {
     severity: Severity::Note,
     foreign: Severity::Note,
     title: "an array whose elements differ",
-    explanation: "The elements of an ARRAY have one type by right, and programs that make one array of it take the rest for the same, too: access and PDO mapping of the first element stand \
-        for all. Where only some elements that can be written have a default value, nobody knows what the others start with. Nothing is wrong if the elements are meant so; \
-        a RECORD says it more plainly.",
+    explanation: "The elements of an ARRAY have one type by definition, and programs that make one array of it expect \
+        the rest to be equal, too: access and PDO mapping of the first element hold for all. Where only some elements \
+        that can be written have a default value, the start values of the others are unknown. Nothing is wrong if the \
+        elements are meant so; a RECORD makes this plainer.",
     clause: Some("CiA 301, table 37 (object codes)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: limits, array: {count: 2, name: \"limit {n}\", type: unsigned8, access: rw, elements: {2: {access: ro}}}}",
@@ -26,7 +27,7 @@ pub const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     let mut found = Repeated::new();
-    // The standard has arrays that are not alike throughout, such as 1026h; who has others than these is told by itself.
+    // The standard has arrays that are not alike throughout, such as 1026h; others than these are reported.
     let arrays = subject
         .device
         .objects

@@ -13,8 +13,9 @@ pub const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "an index outside the areas for objects",
-    explanation: "Objects lie from 1000h to BFFFh. 0001h to 0FFFh are data types, C000h and above are reserved. Configuration tools refuse a file with such an \
-        object. Give the object an index of the manufacturer's area, 2000h to 5FFFh, or the one that its profile has.",
+    explanation: "Objects are at 1000h to BFFFh. 0001h to 0FFFh are data types, C000h and above are reserved. \
+        Configuration tools refuse a file with such an object. Give the object an index of the manufacturer's area, \
+        2000h to 5FFFh, or the one that its profile has.",
     clause: Some("CiA 301, table 1 (areas of the object dictionary)"),
     example: Some(Example::new(
         "objects:\n  0xC000: {name: level, type: unsigned8, access: ro}",

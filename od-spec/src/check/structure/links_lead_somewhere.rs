@@ -14,9 +14,10 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Note,
     title: "a link that leads nowhere else",
-    explanation: "The links of an object name others that belong together with it, such as the limits of a value. A link to an object that the device does not have leads nowhere: \
-        a reader who follows it finds nothing. One to the object itself says nothing; another index was meant. Correct the index, or remove the link. Indices below 1000h are those of data types, which are no objects of a device here; links to \
-        them are not judged.",
+    explanation: "The links of an object name others that belong together with it, such as the limits of a value. A \
+        link to an object that the device does not have leads nowhere: a reader who follows it finds nothing. One to \
+        the object itself says nothing; another index was meant. Correct the index, or remove the link. Indices below \
+        1000h are those of data types, which are not objects of a device here; links to them are not checked.",
     clause: Some("CiA 306 4.6.4"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: ro, links: [0x2001]}",

@@ -1,4 +1,4 @@
-//! An array or record has an entry beside sub-index 0.
+//! An array or record has an entry other than sub-index 0.
 
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
@@ -13,7 +13,7 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "an array or record without entries",
-    explanation: "An ARRAY or RECORD has at least one element or member beside sub-index 0: otherwise there is nothing that the number of entries could count, and tools refuse the \
+    explanation: "An ARRAY or RECORD has at least one element or member other than sub-index 0: otherwise there is nothing that the number of entries could count, and tools refuse the \
         object. Add an entry, or make the object a VAR.",
     clause: Some("CiA 301, table 37 (object codes)"),
     example: Some(Example::new(
@@ -30,7 +30,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         // Modules bring the elements of a bus coupler.
         let is_of_modules = subject.device.is_of_modules(object.index);
         if object.counted().next().is_none() && !is_fixed_mapping && !is_of_modules {
-            let message = format!("{} has no entry beside sub-index 0", object.index);
+            let message = format!("{} has no entry other than sub-index 0", object.index);
             findings.push(
                 subject
                     .object_finding(CODE, object, message)

@@ -15,8 +15,8 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a constant without a value",
-    explanation: "A `const` entry has one value for ever; without it, an EDS leaves the reader in the dark, and generated code has nothing to answer. \
-        State it as `default`, or make the entry `ro`.",
+    explanation: "A `const` entry has one value for ever; without it, an EDS does not give its value, and generated \
+        code has nothing to answer. State it as `default`, or make the entry `ro`.",
     clause: Some("CiA 306, 4.6.3.2 (AccessType, DefaultValue)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: scale, type: unsigned8, access: const}",
@@ -40,7 +40,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             None => subject.help(Help {
                 specification: "add `default:`, or make it `ro`",
                 eds: &format!("add {}, or write {}", keys.key(Key::Default), keys.set(Key::Access, "ro")),
-                setting: "the device has to tell its value; a constant cannot be set",
+                setting: "the device has to state its value; a constant cannot be set",
             }),
         };
         let message =

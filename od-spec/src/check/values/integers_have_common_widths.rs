@@ -13,8 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Note,
     foreign: Severity::Note,
     title: "an integer of an unusual width",
-    explanation: "CiA 301 has integers of 24, 40, 48 and 56 bits, and few programs know them: no processor has such a type, and a PLC often none to import them into. Nothing is wrong with the \
-        device. Where the width is free, 32 or 64 bits spare its users the trouble.",
+    explanation: "CiA 301 has integers of 24, 40, 48 and 56 bits, and few programs support them: no processor has such \
+        a type, and often a PLC has none to import them into. Nothing is wrong with the device. Where the width is \
+        free, 32 or 64 bits are easier for its users.",
     clause: Some("CiA 301, table 39 (data types)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: count, type: unsigned24, access: ro}",

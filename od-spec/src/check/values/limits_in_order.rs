@@ -25,7 +25,7 @@ pub const CODE: &Code = &Code {
 
 fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for (id, _, entry) in subject.device.entries() {
-        // What follows from the entry behind a view is said there.
+        // What follows from the target of a view is reported there.
         if entry.alias.is_some()
             && entry.facts.get(Fact::LowLimit).is_none()
             && entry.facts.get(Fact::HighLimit).is_none()

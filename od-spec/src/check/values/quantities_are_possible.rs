@@ -16,8 +16,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a temperature below absolute zero",
-    explanation: "Every value that the entry can have lies below -273.15 °C. The offset of a unit is in its symbol and not in raw steps: -273.2 for a raw value in tenths that counts from \
-        there. Correct `offset:` or `scale:`, or the limits.",
+    explanation: "Every value that the entry can have is below -273.15 °C. The offset of a unit is in its symbol and \
+        not in raw steps: -273.2 for a raw value in tenths that counts from there. Correct `offset:` or `scale:`, or \
+        the limits.",
     clause: None,
     example: Some(Example::new(
         "units: {decikelvin: {symbol: °C, scale: 1/10, offset: -2732}}\nobjects:\n  0x2000: {name: temperature, type: unsigned8, access: ro, unit: decikelvin}",

@@ -15,9 +15,10 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a default or limit of a REAL type",
-    explanation: "Tools read `DefaultValue`, `LowLimit` and `HighLimit` of REAL32 and REAL64 differently: some as decimal text, some as the bit pattern of \
-        IEEE 754, and some only as integers. They are written as decimal text. Withhold the default from the EDS, or scale the value to an integer; who \
-        knows that the tools in use read decimal text may allow this with `allow:`.",
+    explanation: "Tools read `DefaultValue`, `LowLimit` and `HighLimit` of REAL32 and REAL64 differently: some as \
+        decimal text, some as the bit pattern of IEEE 754, and some only as integers. They are written as decimal \
+        text. Withhold the default from the EDS, or scale the value to an integer; if the tools in use are known to \
+        read decimal text, allow this with `allow:`.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: gain, type: real32, access: rw, default: 0.5}",

@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a number with more digits than its type keeps",
-    explanation: "A REAL32 keeps about seven decimal digits, a REAL64 fifteen. Of the number that is written it takes the nearest that it has, and whoever reads the value back gets another one than the \
+    explanation: "A REAL32 keeps about seven decimal digits, a REAL64 fifteen. It holds the nearest value that it can represent, and a tool that reads the value back gets another one than the \
         file shows: as REAL32, 16777217 becomes 16777216. A number is as written if it is what the type keeps, rounded to as many digits as are written, or the shortest text that reads back as the \
         same value: 0.1 is right for both. Write what the type keeps; instead of `real32`, you may take `real64`.",
     clause: Some("CiA 301, data types REAL32 and REAL64"),

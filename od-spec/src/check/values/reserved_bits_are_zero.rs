@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a value sets reserved bits",
-    explanation: "Reserved bits are written as 0: a later device may give them a meaning, and would then do something that nobody asked for. Correct the value, \
+    explanation: "Reserved bits are written as 0: a later device may give them a meaning, and would then do something unexpected. Correct the value, \
         or say what the bits mean.",
     clause: None,
     example: Some(Example::new(

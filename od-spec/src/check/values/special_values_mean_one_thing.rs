@@ -1,4 +1,4 @@
-//! A special value is no ordinary value as well.
+//! A special value is not an ordinary value as well.
 
 use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
@@ -14,9 +14,10 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a special value that is an ordinary one, too",
-    explanation: "A special value says something else than a number: that there is none, or that another is meant. One between `min` and `max`, one that the enum lists, or one that is a usual \
-        combination of bits has two meanings, and a reader cannot know which. Take a value outside the limits, or narrow them. The value 0 and the limits themselves are not \
-        judged: 0 is often `off`, and the last value of a range often something else.",
+    explanation: "A special value means something other than a number: that there is none, or that another is meant. \
+        One between `min` and `max`, one that the enum lists, or one that is a usual combination of bits has two \
+        meanings, and a reader cannot know which. Take a value outside the limits, or narrow them. The value 0 and the \
+        limits themselves are not checked: 0 is often `off`, and the last value of a range often something else.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: level, type: unsigned8, access: rw, min: 0, max: 100, special: {50: automatic}}",
@@ -47,7 +48,7 @@ fn by_maker(entry: &Entry) -> bool {
     !entry.special.is_empty() && !entry.is_only_standard(Fact::Special)
 }
 
-/// What a special value means beside what it is special for.
+/// What a special value means, apart from what it is special for.
 fn other_meaning(entry: &Entry, special: &SpecialValue) -> Option<String> {
     match entry.named_type.as_ref().map(|named| &named.kind) {
         Some(TypeKind::Enum(values)) => {

@@ -14,9 +14,12 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a value at start that the entry cannot have",
-    explanation: "The entry has no default, so that a generated dictionary starts with 0; but 0 lies outside its limits or is no value of its enum. Until somebody writes another one, the \
-        device shows what it would refuse, and may act on it. State the value that it starts with as `default:`; where it is no promise of the maker, `eds: {default: withheld}` keeps it out \
-        of the EDS. Of an EDS, `odgen build --rust` says this: without `DefaultValue`, the code starts with 0. A 0 that says \"not yet known\" is a value of its own: `special: {0: not yet known}`.",
+    explanation: "The entry has no default, so that a generated dictionary starts with 0; but 0 is outside its limits \
+        or is not a value of its enum. Until a client writes another one, the device shows what it would refuse, and \
+        may act on it. State the value that it starts with as `default:`; if it is not a promise of the maker, `eds: \
+        {default: withheld}` keeps it out of the EDS. Of an EDS, `odgen build --rust` says this: without \
+        `DefaultValue`, the code starts with 0. A 0 that says \"not yet known\" is a value of its own: `special: {0: \
+        not yet known}`.",
     clause: None,
     example: Some(Example::new(
         "objects:\n  0x2000: {name: gain, type: unsigned8, access: rw, min: 1}",
@@ -33,9 +36,9 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let message = format!("{id} ({}) starts with 0, which is {}", entry.name, problem(entry));
         let diagnostic = subject.finding(CODE, id, entry, limit(entry).fact(), message);
         findings.push(diagnostic.help(if entry.data_type.family() == Family::Real {
-            "add `default:`, with `eds: {default: withheld}` where it is no promise"
+            "add `default:`, with `eds: {default: withheld}` if it is not a promise"
         } else {
-            "add `default:`, with `eds: {default: withheld}` where it is no promise; or make 0 a `special` value"
+            "add `default:`, with `eds: {default: withheld}` if it is not a promise; or make 0 a `special` value"
         }));
     }
 }
@@ -48,7 +51,7 @@ pub fn start_of_code(device: &Dictionary) -> Option<Diagnostic> {
     let (id, entry) = wrong.next()?;
     let message = format!("in the code, {id} ({}) starts with 0, which is {}", entry.name, problem(entry));
     let diagnostic = Diagnostic::new(CODE, entry.place(limit(entry).fact()), message).about((id, limit(entry).fact())).help(
-        "write `DefaultValue` into the EDS; or let the firmware write these entries before anybody reads them",
+        "write `DefaultValue` into the EDS; or let the firmware write these entries before they are read",
     );
     let mut named: Vec<String> = wrong.by_ref().take(NAMED).map(|(id, _)| id.to_string()).collect();
     match wrong.count() {
@@ -60,7 +63,7 @@ pub fn start_of_code(device: &Dictionary) -> Option<Diagnostic> {
 
 /// The entries that show a 0 which they cannot have.
 fn starting_wrong(device: &Dictionary) -> impl Iterator<Item = (EntryId, &Entry)> {
-    // What nobody can read shows nothing, and a view shows another entry's value.
+    // What cannot be read shows nothing, and a view shows another entry's value.
     let is_shown =
         |entry: &Entry| entry.access.is_readable() && entry.alias.is_none() && entry.default.is_none();
     let wrong = device.entries().filter(move |(.., entry)| is_shown(entry) && !starts_right(entry));

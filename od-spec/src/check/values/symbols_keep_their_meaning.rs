@@ -13,9 +13,10 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a unit that contradicts its symbol",
-    explanation: "`base:` says what one symbol is worth, and the symbol says it, too: kV are 1000 V, µs are 1/1000000 s, and 1 V is 1 V. Where two units have one symbol, they have one base, \
-        or none; otherwise a value such as `5 rpm` would depend on the entry that it is written for. A number is no symbol. Every conversion and every constraint would be wrong by the difference. Correct \
-        `base:`, or the symbol.",
+    explanation: "`base:` says what one symbol is worth, and the symbol says it, too: kV are 1000 V, µs are 1/1000000 \
+        s, and 1 V is 1 V. Where two units have one symbol, they have one base, or none; otherwise a value such as `5 \
+        rpm` would depend on the entry that it is written for. A number is not a symbol. Every conversion and every \
+        constraint would be wrong by the difference. Correct `base:`, or the symbol.",
     clause: None,
     example: Some(Example::new(
         "units: {kilovolt: {symbol: kV, base: 1/1000 V}}\nobjects:\n  0x2000: {name: level, type: unsigned16, access: rw, unit: kilovolt, default: 0}",
@@ -23,7 +24,7 @@ const CODE: &Code = &Code {
     )),
 };
 
-/// Prefixes of the SI, with their powers of ten; `u` stands in for µ, which has two characters.
+/// Prefixes of the SI, with their powers of ten; `u` replaces µ, which has two characters.
 const PREFIXES: [(&str, i32); 22] = [
     ("Y", 24),
     ("Z", 21),
@@ -99,7 +100,7 @@ fn of_prefix(unit: &Unit) -> Option<Diagnostic> {
     )))
 }
 
-/// The powers of ten between two symbols that are one and the same behind their prefixes.
+/// The powers of ten between two symbols that are one and the same after their prefixes.
 fn powers<'s>(symbol: &'s str, base: &'s str) -> impl Iterator<Item = i32> + 's {
     let of_base: Vec<(&str, i32)> = roots(base).collect();
     roots(symbol).flat_map(move |(root, power)| {
@@ -108,7 +109,7 @@ fn powers<'s>(symbol: &'s str, base: &'s str) -> impl Iterator<Item = i32> + 's 
     })
 }
 
-/// What a symbol may be behind a prefix, or without one. Bits and bytes are counted in powers of two, too.
+/// What a symbol may be after a prefix, or without one. Bits and bytes are counted in powers of two, too.
 fn roots(symbol: &str) -> impl Iterator<Item = (&str, i32)> {
     let prefixed =
         PREFIXES.iter().filter_map(move |(prefix, power)| Some((symbol.strip_prefix(prefix)?, *power)));

@@ -12,7 +12,7 @@ const CODE: &Code = &Code {
     id: "OD0882",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "a unit on something that is no quantity",
+    title: "a unit on something that is not a quantity",
     explanation: "A unit says what one step of a number is worth. The values of an enum are names, those of a bit field are bits, and a text, a truth value, a time with its date or a block \
         of bytes has no steps. Masters and documents would show such a value as so many volts. Remove `unit:`, or correct the type. A number that has a few values with a meaning of \
         their own keeps its unit with `special:`.",
@@ -35,7 +35,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     }
 }
 
-/// What an entry is whose values are no quantities.
+/// What an entry is whose values are not quantities.
 fn without_quantity(entry: &Entry) -> Option<&'static str> {
     match (entry.named_type.as_ref().map(|named| &named.kind), entry.data_type.family()) {
         (Some(TypeKind::Enum(_)), _) => Some("an enum"),

@@ -16,9 +16,10 @@ pub const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a value that does not fit the type",
-    explanation: "The value lies outside what the data type can carry, for the formula `$NODEID + n` also for the largest node-ID 127, \
-        or a string is longer than its `capacity`. The device would hold another value than the one written here. Signed values are \
-        written in decimal, not as bit patterns. Correct the value, or take a wider type or a larger capacity.",
+    explanation: "The value is outside what the data type can hold, for the formula `$NODEID + n` also for the largest \
+        node-ID 127, or a string is longer than its `capacity`. The device would hold another value than the one \
+        written here. Signed values are written in decimal, not as bit patterns. Correct the value, or take a wider \
+        type or a larger capacity.",
     clause: Some("CiA 301, table 39 (data types)"),
     example: Some(Example::new(
         "objects:\n  0x2000: {name: label, type: visible-string, capacity: 4, access: rw, default: LABEL}",
@@ -51,7 +52,7 @@ fn number(subject: &Subject<'_>, id: EntryId, entry: &Entry, value: &Value) -> O
     let place = subject.place(entry, Fact::Default);
     if !is_of_type(value, entry.data_type) {
         let shown = format_value(entry, value);
-        let message = format!("{id} ({}): `{shown}` is no value of type {}", entry.name, entry.data_type);
+        let message = format!("{id} ({}): `{shown}` is not a value of type {}", entry.name, entry.data_type);
         // A value that follows from the device is right; the type is not.
         let help = "correct the type, or the fact that the value follows from";
         return Some(

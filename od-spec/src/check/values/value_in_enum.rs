@@ -17,9 +17,10 @@ pub const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "not a value of the enum",
-    explanation: "The entry's type lists its values; this one is not among them, or is one that the device does not support (`supported: no`). A device refuses a mode or \
-        command that it does not know, with abort code 0609 0030h, and whatever it starts with is a value that it has. Write the name of a value, add the value to the type, \
-        or make it `special` at the entry.",
+    explanation: "The entry's type lists its values; this one is not among them, or is one that the device does not \
+        support (`supported: no`). A device refuses a mode or command that it does not know, with abort code 0609 \
+        0030h, and it starts with a value that it has. Write the name of a value, add the value to the type, or make \
+        it `special` at the entry.",
     clause: None,
     example: Some(Example::new(
         "types:\n  mode: {base: unsigned16, values: {0: off, 1: on}}\nobjects:\n  0x2000: {name: mode, type: mode, access: rw}\n  0x2001: {name: short mode, alias: mode, type: unsigned8}\n# --set 2001=2",
@@ -32,7 +33,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
         let Some(TypeKind::Enum(values)) = entry.named_type.as_ref().map(|named| &named.kind) else {
             continue;
         };
-        // What a view shows of another entry's value is no value of its own.
+        // What a view shows of another entry's value is not a value of its own.
         if entry.alias.is_some() && !entry.is_set() {
             continue;
         }

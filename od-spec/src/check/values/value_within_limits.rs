@@ -16,7 +16,7 @@ pub(crate) const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a value outside the limits",
-    explanation: "The value lies outside `min` and `max` of its entry and is none of its `special` values; for a node-ID formula this holds \
+    explanation: "The value is outside `min` and `max` of its entry and is not one of its `special` values; for a node-ID formula this holds \
         for every node-ID. A device refuses such a value with abort code 0609 0031h or 0609 0032h, and one that does not may do harm. \
         Correct the value or the limits, or make the value `special`. What an alias sets counts for the entry that holds the value, too.",
     clause: Some("CiA 306, 4.6.3.2 (LowLimit, HighLimit)"),
@@ -36,7 +36,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     }
 }
 
-/// Whether a view is blamed: its limits are those of what is written through it, and of a default that the entry behind it
+/// Whether a view is blamed: its limits are those of what is written through it, and of a default that the target
 /// can have.
 fn view_counts(subject: &Subject<'_>, view: &Entry) -> bool {
     let is_written = subject.node.is_none() || view.is_set();

@@ -135,7 +135,8 @@ impl Readers {
         format!("{} {}", listed(&names), if names.len() == 1 { one } else { several })
     }
 
-    /// What is said at a finding: who refuses the file because of it, and who is reported to stumble; a line each.
+    /// What is said at a finding: which readers refuse the file because of it, and which are reported to fail; a line
+    /// each.
     pub(crate) fn sentences(self) -> Vec<String> {
         let named = |evidence| {
             let names = self.iter().filter(move |reader| reader.evidence() == evidence);

@@ -61,7 +61,8 @@ fn snippet<'a>(
     Snippet::source(text).line_start(first + 1).path(visible(file.name())).annotations(annotations)
 }
 
-/// A text without the hidden characters that the renderer does not replace, those outside ASCII. What stands for them is as long.
+/// A text without the hidden characters that the renderer does not replace, those outside ASCII. What represents them
+/// is as long.
 fn as_long(text: &str) -> Cow<'_, str> {
     let is_hidden = |c: char| !c.is_ascii() && is_hidden(c);
     if text.contains(is_hidden) {

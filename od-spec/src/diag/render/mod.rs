@@ -19,7 +19,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Messages of one code that are written; a number stands for the others.
+    /// Messages of one code that are written; a number represents the others.
     const fn most(self) -> usize {
         match self {
             Format::Human => 100,

@@ -16,10 +16,10 @@ const FILE_INFO: &[&str] = &[
     "ModifiedBy",
     "LastEDS",
 ];
-/// Keys of `[DeviceInfo]` that tell whose device it is and which one.
+/// Keys of `[DeviceInfo]` that identify the device and its vendor.
 pub(super) const IDENTITY: &[&str] =
     &["VendorName", "VendorNumber", "ProductName", "ProductNumber", "RevisionNumber", "OrderCode"];
-/// Keys of `[DeviceInfo]` that tell what the device can do, and that every file has.
+/// Keys of `[DeviceInfo]` that state what the device can do, and that every file has.
 pub(super) const ABILITIES: &[&str] = &[
     "BaudRate_10",
     "BaudRate_20",
@@ -38,7 +38,7 @@ pub(super) const ABILITIES: &[&str] = &[
     "NrOfTXPDO",
     "LSS_Supported",
 ];
-/// Keys of `[DeviceInfo]` that a device without what they tell leaves out.
+/// Keys of `[DeviceInfo]` that a device without what they state leaves out.
 const FURTHER_ABILITIES: &[&str] =
     &["CompactPDO", "CANopenSafetySupported", "NG_Slave", "NG_Master", "NrOfNG_MonitoredNodes"];
 /// Keys of `[DeviceInfo]` that are reserved for EDS of version 3 (CiA 306 4.5).
@@ -149,7 +149,7 @@ enum Numbered {
     Dummy,
 }
 
-/// The keys of a section; `None` where any may stand.
+/// The keys of a section; `None` where any may be.
 pub(in crate::eds) fn of(topic: Topic) -> Option<Keys> {
     const LINES: Keys = keys(&[&["Lines"]], Numbered::Decimal("Line"));
     const ENTRIES: Keys = keys(&[&["NrOfEntries"]], Numbered::Decimal(""));
@@ -194,7 +194,7 @@ impl Keys {
         self.named.iter().copied().flatten().copied()
     }
 
-    /// A key in the standard's capitals; `None` for one that the section does not have.
+    /// A key in the standard's case; `None` for one that the section does not have.
     pub(in crate::eds) fn spelling(&self, key: &str) -> Option<String> {
         let prefix = match self.numbered {
             Numbered::None => {

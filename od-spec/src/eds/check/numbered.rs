@@ -22,7 +22,7 @@ pub(super) struct NumberedList<'v, 'd> {
 pub(super) struct Form {
     /// The key that counts the entries.
     pub count: &'static str,
-    /// What stands in front of an entry's number.
+    /// What is before an entry's number.
     pub prefix: &'static str,
     /// What the numbers say.
     pub numbers: Numbers,
@@ -37,7 +37,7 @@ pub(super) enum Numbers {
     Place,
 }
 
-/// The form of a section; `None` for one that is no numbered list.
+/// The form of a section; `None` for one that is not a numbered list.
 pub(super) const fn form(topic: Topic) -> Option<Form> {
     const fn form(count: &'static str, prefix: &'static str, numbers: Numbers) -> Form {
         Form { count, prefix, numbers }
@@ -79,7 +79,7 @@ pub(super) fn of_objects<'v, 'd>(view: &'v View<'d>) -> Vec<(List, NumberedList<
     lists.filter_map(read).collect()
 }
 
-/// An index that a list names; `None` for what is none.
+/// An index that a list names; `None` for anything else.
 pub(super) fn index(entry: &Entry<'_>) -> Option<Index> {
     lenient_integer(entry.value.value).and_then(|number| u16::try_from(number).ok()).map(Index)
 }
@@ -116,7 +116,8 @@ impl<'v, 'd> NumberedList<'v, 'd> {
         repeated.map(|(_, entry)| entry.key.span.start).collect()
     }
 
-    /// The changes after which some entries are gone, others are added behind them, and all of them are numbered and counted.
+    /// The changes after which some entries are gone, others are added after them, and all of them are numbered and
+    /// counted.
     pub(super) fn rewritten(&self, view: &View<'_>, without: &BTreeSet<u32>, more: &[Index]) -> Vec<Edit> {
         let mut edits = Vec::new();
         let is_gone = |entry: &Entry<'_>| without.contains(&entry.key.span.start);

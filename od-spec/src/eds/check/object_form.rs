@@ -28,7 +28,7 @@ pub(super) fn form(object: &ObjectPart<'_>) -> Option<Form> {
     }
 }
 
-/// The number of sub-indices that have a section; FFh is none.
+/// The number of sub-indices that have a section; FFh does not count.
 pub(super) fn described(object: &ObjectPart<'_>) -> i128 {
     object.subs.keys().filter(|sub| **sub < 0xFF).map(|_| 1).sum()
 }

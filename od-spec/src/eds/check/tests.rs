@@ -42,7 +42,7 @@ fn told(diagnostics: &Diagnostics) -> String {
 }
 
 #[test]
-fn the_example_of_a_rule_is_refused_by_it_and_accepted_when_put_right() {
+fn the_example_of_a_rule_is_refused_by_it_and_accepted_when_fixed() {
     let mut wrong = String::new();
     for rule in RULES.iter().copied() {
         let (id, example) = (rule.code.id, example(rule));

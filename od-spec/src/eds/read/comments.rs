@@ -192,7 +192,7 @@ struct Comments {
 struct StepText {
     text: String,
     scale: Ratio,
-    /// What the raw value 0 stands for, where the comment says it.
+    /// What the raw value 0 means, where the comment says it.
     offset: Option<Ratio>,
     symbol: String,
 }
@@ -256,8 +256,8 @@ impl Comments {
     }
 }
 
-/// The comments above a section, lines that were broken joined again. What stands apart from the header, or is a part of
-/// the file that somebody took out, is about something else.
+/// The comments above a section, lines that were broken joined again. What is separated from the header, or is a part
+/// of the file that was taken out, is about something else.
 fn sentences(part: &Part<'_>) -> Vec<String> {
     let mut sentences: Vec<String> = Vec::new();
     for line in part.comments_at_header() {

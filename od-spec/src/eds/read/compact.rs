@@ -16,13 +16,13 @@ use crate::model::{Access, DataType, EntryId, Index, ObjectKind, Role, SubIndex}
 use crate::source::Spanned;
 use std::collections::BTreeMap;
 
-/// How many elements a section may stand for, as far as it can be read without a word.
+/// How many elements a section may represent, as far as it can be read without a word.
 pub(super) fn number(main: &Part<'_>) -> usize {
     let number = main.value("CompactSubObj").and_then(|text| lenient_integer(text.value));
     usize::try_from(number.unwrap_or(0).clamp(0, 254)).unwrap_or(0)
 }
 
-/// The number of elements of a compact array; `None` for an object that is none.
+/// The number of elements of a compact array; `None` for an object that is not one.
 pub(super) fn count(main: &Part<'_>, context: &mut Context<'_>) -> Option<u8> {
     let text = main.value("CompactSubObj")?;
     let read = number::integer(text.value);
@@ -55,7 +55,7 @@ pub(super) fn object(
 ) -> ObjectDecl {
     let place = main.place();
     let id = EntryId { index, sub: SubIndex(0) };
-    // What the section says holds for every element; its own value is none of the object's.
+    // What the section says holds for every element; its own value is not one of the object's.
     let node = context.node.take();
     let common = entry::entry(main, id, Form::Elements, context);
     context.node = node;
@@ -85,8 +85,8 @@ pub(super) fn object(
         elements.push(described.unwrap_or((Spanned::new(SubIndex(sub), place), element)));
     }
     elements.extend(explicit.into_values());
-    // How many entries a PDO maps, and how many errors there were, is written: it is no constant of the compact form.
-    // A node whose mapping is listed maps the whole list.
+    // How many entries a PDO maps, and how many errors there were, is written: it is not a constant of the compact
+    // form. A node whose mapping is listed maps the whole list.
     if let (Role::PdoMapping, Some(node), true) =
         (Role::of(index), context.node.as_deref_mut(), !values.is_empty() && !part.subs.contains_key(&0))
     {

@@ -21,7 +21,7 @@ pub(super) fn read(view: &View<'_>, objects: &[Index], of_modules: KeysBySection
     }
 }
 
-/// Reads what is beside the comments. `has_subs` says whether an object has sub-indices.
+/// Reads what is there in addition to the comments. `has_subs` says whether an object has sub-indices.
 pub(super) fn without_comments(
     view: &View<'_>,
     objects: &[Index],
@@ -43,7 +43,7 @@ pub(super) fn without_comments(
             Topic::Tools | Topic::Tool(_) | Topic::SupportedModules => {
                 further.sections.push(FurtherSection::new(name(topic, part), all_keys(topic, part)));
             }
-            // What stands there and has no meaning is said where they are read.
+            // What is there and has no meaning is reported where they are read.
             Topic::Elements(..) | Topic::DynamicChannels => {}
             Topic::Object(index) if compact::number(part) > 0 => {
                 if objects.binary_search(&index).is_ok() {

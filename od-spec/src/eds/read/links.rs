@@ -7,8 +7,8 @@ use crate::eds::view::Part;
 use crate::model::Index;
 use crate::source::Spanned;
 
-/// The linked objects in the order of their numbers, whatever the count says. What is no index is for the rules about the
-/// text to report.
+/// The linked objects in the order of their numbers, whatever the count says. What is not an index is for the rules
+/// about the text to report.
 pub(super) fn links(part: &Part<'_>) -> Vec<Spanned<Index>> {
     let numbered = part.entries().filter_map(|entry| {
         let is_number = entry.key.value.bytes().all(|byte| byte.is_ascii_digit());

@@ -1,7 +1,7 @@
 //! From the sections of an EDS or DCF to a declaration, as a specification would have made it: every text with its place, and
 //! nothing invented without a word.
 //!
-//! A fault never stops the reader. What it cannot read it leaves out, and where something has to stand it takes what does
+//! A fault never stops the reader. What it cannot read it leaves out, and where something has to be it takes what does
 //! the least harm; in both cases it says so. What it gives is accepted by everything that follows.
 
 mod channels;
@@ -43,7 +43,7 @@ pub use stated::{cannot_hold, cannot_hold_section};
 pub(crate) struct Read {
     /// The device, as a specification would describe it.
     pub spec: Spec,
-    /// What it says beside that.
+    /// What it says in addition to that.
     pub further: Option<Arc<Further>>,
     /// Of a DCF: the node.
     pub node: Option<NodeDecl>,
@@ -102,7 +102,7 @@ pub(crate) fn read(
     Read { spec, further, node }
 }
 
-/// All objects of a file, by index, and what stands at those of modules beyond their facts.
+/// All objects of a file, by index, and what is at those of modules beyond their facts.
 fn objects(
     view: &View<'_>,
     node: Option<&mut NodeDecl>,
@@ -128,7 +128,7 @@ fn objects(
 /// Something that is right, and that a dictionary has no place for.
 fn without_place(code: &'static Code, place: Span, message: String) -> Diagnostic {
     Diagnostic::new(code, place, message)
-        .help("keep the file for tools that need it; what is made from it does without")
+        .help("keep the file for tools that need it; what is made from it does not have it")
 }
 
 /// A text with the place that it follows from.

@@ -23,8 +23,8 @@ const MODULE_LIST: Index = Index(0x1027);
 
 type Module<'d> = BTreeMap<ModuleTopic, Part<'d>>;
 
-/// Adds the objects of the connected modules, in the order in which these are plugged in; gives what stands at them beyond
-/// their facts.
+/// Adds the objects of the connected modules, in the order in which these are plugged in; returns what is at them
+/// beyond their facts.
 pub(super) fn add(
     view: &View<'_>,
     objects: &mut Vec<ObjectDecl>,
@@ -76,7 +76,7 @@ pub(super) fn add(
     keys
 }
 
-/// Keeps what stands at an object that a module brings.
+/// Keeps what is at an object that a module brings.
 fn keep(index: Index, part: &ObjectPart<'_>, keys: &mut KeysBySection) {
     if let Some(own) = &part.object {
         let name = further::name(Topic::Object(index), own);
@@ -137,8 +137,8 @@ impl<'a> Objects<'a> {
     }
 
     /// Whether the file describes what the connected modules add to objects: a DCF may have the sub-indices of all modules,
-    /// with their values, or leave them to its reader. 1027h has nothing else, and tells; without it, the last sub-index of
-    /// what they extend does.
+    /// with their values, or leave them to its reader. 1027h has nothing else, and shows this; without it, the last
+    /// sub-index of what they extend does.
     fn are_in_full(&mut self, view: &View<'_>) -> bool {
         let modules = view.connected.iter().filter_map(|number| view.modules.get(number));
         let extensions: BTreeMap<Index, &Part<'_>> = modules

@@ -41,7 +41,7 @@ pub(crate) struct NodeDecl {
     pub net_number: Option<u32>,
     /// Name of the network.
     pub net_name: Option<String>,
-    /// Serial number for LSS; 0 is none.
+    /// Serial number for LSS; 0 means that there is none.
     pub serial_number: Option<u32>,
     /// Whether it is the CANopen manager.
     pub manager: bool,
@@ -59,7 +59,8 @@ pub(crate) struct NodeDecl {
     pub files: Vec<(EntryId, FileUse, Name)>,
 }
 
-/// What stands about the node itself. What cannot be read counts as not said; the rules about the text tell.
+/// What the file says about the node itself. What cannot be read counts as not said; the rules about the text report
+/// it.
 pub(super) fn read(view: &View<'_>) -> NodeDecl {
     let Some(section) = view.section(Topic::Commissioning) else { return NodeDecl::default() };
     let text = |key: &str| section.value(key).map(|text| text.value.to_owned());
@@ -83,7 +84,7 @@ pub(super) fn read(view: &View<'_>) -> NodeDecl {
     }
 }
 
-/// A bit rate in kbit/s: one of CiA 301 in any unit, or another one. 0 is none.
+/// A bit rate in kbit/s: one of CiA 301 in any unit, or another one. 0 means that there is none.
 fn bit_rate(text: &str) -> Option<u16> {
     let other = || u16::try_from(lenient_integer(text)?).ok().filter(|rate| *rate != 0);
     coded::bit_rate(text).or_else(other)

@@ -1,5 +1,5 @@
-//! What a DCF says about objects and entries of its node beside their values (CiA 306 5.3.1): names in the application, and
-//! files of DOMAINs. In an EDS, and where a key means nothing, it is left out with a word.
+//! What a DCF says about objects and entries of its node in addition to their values (CiA 306 5.3.1): names in the
+//! application, and files of DOMAINs. In an EDS, and where a key means nothing, it is left out with a word.
 
 use super::entry::Context;
 use super::node::FileUse;
@@ -59,7 +59,7 @@ pub(super) fn element_name(name: Spanned<&str>, of: Denoted, context: &mut Conte
     }
 }
 
-/// A section that stands for several entries, and so for none of a node.
+/// A section that represents several entries, and so for none of a node.
 pub(super) fn leave_out(part: &Part<'_>, id: EntryId, context: &mut Context<'_>) {
     for key in ["Denotation", "UploadFile", "DownloadFile", "ParamRefd"] {
         if let Some(text) = part.value(key) {

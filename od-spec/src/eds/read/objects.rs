@@ -24,7 +24,7 @@ pub(super) fn object(index: Index, part: &ObjectPart<'_>, context: &mut Context<
     let place = first.place();
     context.about(index);
     if index.0 < 0x1000 {
-        let message = format!("{index} is no entry of the dictionary; it is left out");
+        let message = format!("{index} is not an entry of the dictionary; it is left out");
         context.push(without_place(codes::OBJECT_LEFT_OUT, place, message));
         return None;
     }

@@ -54,7 +54,7 @@ pub fn cannot_hold(key: &str, value: &str) -> Option<String> {
         if value.chars().any(char::is_control) {
             Some("the value holds a control character".to_owned())
         } else if value.trim() != value || value.is_empty() {
-            Some("the value is empty, or has blanks at its ends".to_owned())
+            Some("the value is empty, or has spaces at its ends".to_owned())
         } else if length > longest {
             Some(format!("the value has {length} characters, a line holds {longest}"))
         } else {
@@ -68,7 +68,7 @@ pub fn cannot_hold_section(name: &str) -> Option<String> {
     name_problem(name, |c| matches!(c, '[' | ']')).map(|problem| format!("the name {problem}"))
 }
 
-/// Why a text cannot stand where a line has a name.
+/// Why a text cannot be where a line has a name.
 fn name_problem(name: &str, is_unfit: impl Fn(char) -> bool) -> Option<String> {
     let written = in_ascii(name);
     let unfit = |c: char| c.is_control() || is_unfit(c);
@@ -76,7 +76,7 @@ fn name_problem(name: &str, is_unfit: impl Fn(char) -> bool) -> Option<String> {
         let unfit = if unfit.is_control() { "a control character".to_owned() } else { format!("`{unfit}`") };
         Some(format!("holds {unfit}"))
     } else if name.is_empty() || name.trim() != name {
-        Some("is empty, or has blanks at its ends".to_owned())
+        Some("is empty, or has spaces at its ends".to_owned())
     } else if has_lost(name) {
         Some("has characters without a form in ASCII".to_owned())
     } else if written.len() >= LONGEST_KEY {
@@ -149,7 +149,7 @@ fn document(file: FileId, sections: &[FileSectionDecl], diagnostics: &mut Diagno
     document
 }
 
-/// Whether a name was there before, in whatever capitals, which is reported.
+/// Whether a name was there before, in whatever case, which is reported.
 fn is_twice(
     names: &mut BTreeMap<String, Span>,
     name: &str,
@@ -157,7 +157,7 @@ fn is_twice(
     diagnostics: &mut Diagnostics,
 ) -> bool {
     let Some(first) = names.insert(name.to_ascii_lowercase(), place) else { return false };
-    let message = format!("`{}` stands twice; capitals make no difference", shorten(name));
+    let message = format!("`{}` is written twice; case makes no difference", shorten(name));
     diagnostics.push(
         Diagnostic::new(codes::DUPLICATE_KEY, place, message)
             .with(first, "first here")

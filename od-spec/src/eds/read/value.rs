@@ -110,7 +110,7 @@ fn formula(text: Spanned<&str>, diagnostics: &mut Diagnostics) -> Option<String>
                 text.span,
                 format!("found `{shown}`, expected `{standard}`"),
             )
-            .help("begin with `$NODEID` in capitals, and leave out blanks")
+            .help("begin with `$NODEID` in upper case, and leave out spaces")
             .edit(text.span, standard.clone()),
         );
     }
@@ -193,7 +193,7 @@ fn octets(text: Spanned<&str>, diagnostics: &mut Diagnostics) -> Option<String> 
     Some(digits)
 }
 
-/// A value that is none of its type.
+/// A value that its type does not have.
 fn unreadable(text: Spanned<&str>, expected: &str) -> Diagnostic {
     let message = format!("found `{}`, expected a value of type {expected}", shorten(text.value));
     let digits = text.value.trim_end_matches(['h', 'H']);

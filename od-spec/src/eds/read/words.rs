@@ -29,7 +29,7 @@ pub(super) fn object_type(text: Spanned<&str>, code: i128, diagnostics: &mut Dia
     }
 }
 
-/// An access type; `None` for what is none.
+/// An access type; `None` for anything else.
 pub(super) fn access(text: Spanned<&str>, diagnostics: &mut Diagnostics) -> Option<Access> {
     let access = coded::access(text.value)?;
     let word = access.word();

@@ -10,7 +10,7 @@
 //! reference  = [ device ":" ] "0x" hex digits [ "." sub-index ]
 //! ```
 //!
-//! In a specification, an entry, a bit and a value may stand there by name; see `without_names`.
+//! In a specification, an entry, a bit and a value may be written by name; see `without_names`.
 
 mod names;
 
@@ -23,8 +23,8 @@ pub use crate::model::{ArithmeticOp, CompareOp, Comparison, EntryRef, Expr, Outc
 use crate::model::{EntryId, Index, Ratio, SubIndex};
 use crate::scalar;
 
-/// A condition in which indices, bits and numbers stand instead of names. Names have blanks and points (`drive data.error mask`), and
-/// none of the signs of a condition; a minus has a blank behind it.
+/// A condition in which indices, bits and numbers are written instead of names. Names have spaces and points (`drive
+/// data.error mask`), and none of the signs of a condition; a minus has a space after it.
 ///
 /// # Errors
 /// As [`Expr::parse`].
@@ -47,7 +47,7 @@ const MAX_DEPTH: usize = 32;
 /// Terms of one condition that are read.
 const MAX_TERMS: usize = 500;
 
-/// Why a text is no condition.
+/// Why a text is not a condition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ConditionError {
     /// Bytes of the text.
@@ -96,7 +96,7 @@ struct Parser<'a, 'l> {
     lookup: Option<&'l mut dyn Lookup>,
     /// The entry that is compared with what is read.
     compared: Option<EntryRef>,
-    /// What stands for names.
+    /// What represents names.
     replaced: Vec<(Range<usize>, String)>,
 }
 
@@ -364,7 +364,7 @@ impl<'a, 'l> Parser<'a, 'l> {
         self.reference().map(Term::Entry)
     }
 
-    /// An entry that stands there by name.
+    /// An entry that is written there by name.
     fn named(&mut self, range: Range<usize>, device: Option<&str>, id: EntryId) -> EntryRef {
         let sub = if id.sub.0 == 0 { String::new() } else { format!(".{}", id.sub.0) };
         self.replaced.push((range.clone(), format!("0x{:04X}{sub}", id.index.0)));
@@ -372,7 +372,7 @@ impl<'a, 'l> Parser<'a, 'l> {
         EntryRef { device: device.map(ToOwned::to_owned), id }
     }
 
-    /// Takes what stands for the number of a constraint.
+    /// Takes what represents the number of a constraint.
     fn placeholder(&mut self) -> bool {
         self.lookup.is_some() && self.take(PLACEHOLDER)
     }

@@ -1,4 +1,4 @@
-//! Names in conditions, and who knows what they stand for.
+//! Names in conditions, and what resolves them.
 
 use std::ops::Range;
 
@@ -10,11 +10,11 @@ pub(crate) struct Named<'a> {
     /// The device in front of it.
     pub device: Option<&'a str>,
     pub text: &'a str,
-    /// Where it stands in the condition.
+    /// Where it is in the condition.
     pub range: Range<usize>,
 }
 
-/// What a name stands for where a number or an entry may stand.
+/// What a name means where a number or an entry may be.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Operand {
     Entry(EntryId),
@@ -25,11 +25,11 @@ pub(crate) enum Operand {
 pub(crate) trait Lookup {
     /// The entry of a name.
     fn entry(&mut self, name: &Named<'_>) -> Option<EntryId>;
-    /// What a name stands for that an entry is compared with: one of the entry's values, or another entry.
+    /// What a name means that an entry is compared with: one of the entry's values, or another entry.
     fn operand(&mut self, compared: &EntryRef, name: &Named<'_>) -> Option<Operand>;
     /// The bit of an entry.
     fn bit(&mut self, of: &EntryRef, name: &Named<'_>) -> Option<u8>;
-    /// An entry stands there by index, with its device in front of it where one does.
+    /// An entry is written there by index, with its device in front of it where one does.
     fn numbered(&mut self, _entry: &EntryRef, _range: Range<usize>) {}
 }
 
@@ -50,8 +50,8 @@ impl Lookup for AnyName {
     }
 }
 
-/// What stands for an entry that nobody knows.
+/// What represents an unknown entry.
 pub(super) const NO_ENTRY: EntryId = EntryId { index: Index(0), sub: SubIndex(0) };
 
-/// What stands for the number of a constraint that is written once for several.
+/// What represents the number of a constraint that is written once for several.
 pub(crate) const PLACEHOLDER: &str = "{n}";

@@ -15,9 +15,11 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a COB-ID that two nodes of a bus send, or that is another service's",
-    explanation: "Two nodes of one machine send messages with the same identifier, or a PDO has the one of another node's SDO, EMCY or heartbeat. Sent at the same time such messages \
-        disturb each other on the bus until a node goes off, and whoever receives the one takes the other for it: a heartbeat may become a set-point. The identifiers are those that the \
-        nodes have once they are configured. Give one of the messages another COB-ID, or switch it off (bit 31).",
+    explanation: "Two nodes of one machine send messages with the same identifier, or a PDO has the one of another \
+        node's SDO, EMCY or heartbeat. Sent at the same time such messages disturb each other on the bus until a node \
+        goes off, and a node that receives one takes it for the other: a heartbeat may become a set-point. The \
+        identifiers are those that the nodes have once they are configured. Give one of the messages another COB-ID, \
+        or switch it off (bit 31).",
     clause: Some("CiA 301, 7.3.3 (pre-defined connection set)"),
     example: Some(Example::plant(
         "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}, right: {drive: 12}}\n    parameters: {drive: {1800.1: 0x181}}",

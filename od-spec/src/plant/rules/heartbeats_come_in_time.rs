@@ -11,8 +11,9 @@ const NO_NODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a heartbeat of a node that is not there",
-    explanation: "A node watches the heartbeat (1016h) of a node-ID that no node of the machine has, nor the master, as the type tells. It will report that the node is gone, and do what it does then: \
-        a drive may stop. Correct the node-ID; if it is the master's, say so at the type: `master: {node: 127}`.",
+    explanation: "A node watches the heartbeat (1016h) of a node-ID that no node of the machine has, nor the master, \
+        as far as the type states. It will report that the node is gone, and do what it does then: a drive may stop. \
+        Correct the node-ID; if it is the master's, state it at the type: `master: {node: 127}`.",
     clause: Some("CiA 301, 7.5.2.19 (object 1016h)"),
     example: Some(Example::plant(
         "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}}\n    parameters: {drive: {1016: {1: {node: 2, time: 1 s}}}, supply: {1017: 500}}",
@@ -25,8 +26,9 @@ const TOO_RARE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a heartbeat that comes too rarely",
-    explanation: "A node watches the heartbeat of another one (1016h) that sends none (1017h is 0), or less often than it is waited for. It will report that the node is gone although it works. Set a time \
-        in 1017h of the other node that is clearly shorter than the one that is waited.",
+    explanation: "A node watches the heartbeat of another one (1016h) that sends none (1017h is 0), or sends it less \
+        often than it is expected. It will report that the node is gone although it works. Set a time in 1017h of the \
+        other node that is clearly shorter than the time in 1016h.",
     clause: Some("CiA 301, 7.5.2.19 and 7.5.2.20 (objects 1016h and 1017h)"),
     example: Some(Example::plant(
         "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {supply: 1, drive: 11}}\n    parameters: {drive: {1016: {1: {node: 1, time: 1 s}}}, supply: {1017: 2000}}",
@@ -68,7 +70,7 @@ fn check(bus: &Bus<'_>, diagnostics: &mut Diagnostics) {
                 } else {
                     format!("sends a heartbeat every {period} ms")
                 };
-                let message = format!("node {watched} {sends}, and one is waited for every {wait} ms");
+                let message = format!("node {watched} {sends}, and one is expected every {wait} ms");
                 let diagnostic = Diagnostic::new(TOO_RARE, place, message).help(format!(
                     "set 1017h of {key} at position {} to less than {wait} ms",
                     other.position

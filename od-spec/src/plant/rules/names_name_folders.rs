@@ -1,4 +1,4 @@
-//! Sites, and machines of a site, have folders of their own also where small letters and capitals are one.
+//! Sites, and machines of a site, have folders of their own also where lower and upper case are one.
 
 use std::collections::BTreeMap;
 
@@ -14,8 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "two names of one folder",
-    explanation: "The files of a plant lie in a folder for each site and each machine. Two names that differ only in capitals are one folder on Windows and macOS, and the files of one \
-        machine would replace those of the other. Give one of the two another name.",
+    explanation: "The files of a plant are in a folder for each site and each machine. Two names that differ only in \
+        case are one folder on Windows and macOS, and the files of one machine would replace those of the other. Give \
+        one of the two another name.",
     clause: None,
     example: Some(Example::plant(
         "sites:\n  Hall: {type: P1, machines: {crane-a: {}, crane-A: {}}}",
@@ -30,7 +31,7 @@ fn check(plant: &Plant, diagnostics: &mut Diagnostics) {
     one_by_one("machines", machines, diagnostics);
 }
 
-/// Reports names in one folder that differ only in capitals.
+/// Reports names in one folder that differ only in case.
 fn one_by_one<'a>(
     what: &str,
     names: impl Iterator<Item = (usize, &'a str, Span)>,

@@ -1,4 +1,4 @@
-//! Where a type tells what its master sends and receives, each PDO has a sender and a receiver.
+//! Where a type states what its master sends and receives, each PDO has a sender and a receiver.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,10 +13,10 @@ const RECEIVED: &Code = &Code {
     id: "OD0851",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "a PDO that nobody receives",
-    explanation: "A node sends a PDO that no other node receives, nor the master, as the type tells; or the master sends one that no node receives. An actual value that nobody reads hides a mistake \
-        in a COB-ID, and a set-point that nobody receives leaves a drive where it is. Correct the COB-ID of one end, switch the PDO off, or add it to what the master receives. Types without \
-        `master:` are not looked at: the master is normally the other end, and nobody says what it does.",
+    title: "a PDO that no node receives",
+    explanation: "A node sends a PDO that no other node receives, nor the master, as far as the type states; or the master sends one that no node receives. An actual value that is not read hides a mistake \
+        in a COB-ID, and a set-point that no node receives leaves a drive where it is. Correct the COB-ID of one end, switch the PDO off, or add it to what the master receives. Types without \
+        `master:` are not looked at: the master is normally the other end, and the file does not state what it does.",
     clause: None,
     example: Some(Example::plant(
         "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {drive: 11}}\n    master: {sends: [0x20B]}",
@@ -28,9 +28,11 @@ const SENT: &Code = &Code {
     id: "OD0852",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "a PDO that nobody sends",
-    explanation: "A node waits for a PDO that no other node sends, nor the master, as the type tells; or the master waits for one that no node sends. The node works on with what it had last. \
-        Correct the COB-ID of one end, switch the PDO off, or add it to what the master sends. Types without `master:` are not looked at.",
+    title: "a PDO that no node sends",
+    explanation: "A node waits for a PDO that no other node sends, nor the master, as far as the type states; or the \
+        master waits for one that no node sends. The node continues with the last value that it had. Correct the \
+        COB-ID of one end, switch the PDO off, or add it to what the master sends. Types without `master:` are not \
+        looked at.",
     clause: None,
     example: Some(Example::plant(
         "types:\n  P1:\n    bit-rate: 125\n    positions: {left: {drive: 11}}\n    master: {receives: [0x18B]}",
@@ -92,7 +94,7 @@ fn without_end(bus: &Bus<'_>, message: &Message) -> Option<Diagnostic> {
     let plant = bus.plant;
     let (code, lacks, list) =
         if message.is_sent { (RECEIVED, "receives", "receives") } else { (SENT, "sends", "sends") };
-    let text = format!("nobody {lacks} {} ({})", message.short(plant), shown(message.id));
+    let text = format!("no node {lacks} {} ({})", message.short(plant), shown(message.id));
     Some(Diagnostic::new(code, message.place(plant)?, text).help(format!(
         "correct its COB-ID, switch it off (bit 31), or add {} to what the master `{list}:`",
         format_args!("0x{:X}", message.id & 0x1FFF_FFFF)

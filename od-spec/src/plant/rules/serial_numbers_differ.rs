@@ -13,9 +13,10 @@ const CODE: &Code = &Code {
     id: "OD0742",
     severity: Severity::Error,
     foreign: Severity::Error,
-    title: "a serial number that stands twice",
-    explanation: "Two machines, or two devices of one kind, have the same serial number. One of the two numbers is wrong, or a run says it of every machine in it; by LSS, both devices would answer at once. \
-        Correct one of the two, and say serial numbers of single machines.",
+    title: "a serial number that is used twice",
+    explanation: "Two machines, or two devices of one kind, have the same serial number. One of the two numbers is \
+        wrong, or a run states it for every machine in it; by LSS, both devices would answer at once. Correct one of \
+        the two, and state serial numbers for single machines.",
     clause: Some("CiA 305 (LSS address)"),
     example: Some(Example::plant(
         "sites:\n  Hall: {type: P1, machines: {1: {serial: \"26-1\"}, 2: {serial: \"26-1\"}}}",
@@ -68,6 +69,6 @@ fn twice(serial: &str, span: Span, name: &str, first: Span, other: &str, diagnos
     }
     let message = format!("the serial number `{serial}` is that of {other} and of {name}");
     let diagnostic = Diagnostic::new(CODE, span, message)
-        .help("correct one of the two; say serial numbers of single machines");
+        .help("correct one of the two; state serial numbers for single machines");
     diagnostics.push(if first == span { diagnostic } else { diagnostic.with(first, "first here") });
 }

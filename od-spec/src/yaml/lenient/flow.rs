@@ -63,7 +63,7 @@ impl Reader<'_> {
         Node { span: self.span(start, self.at), kind }
     }
 
-    /// Skips blanks, comments and line breaks in brackets; `false` where the lines around go on.
+    /// Skips spaces, comments and line breaks in brackets; `false` where the lines around go on.
     pub(super) fn flow_blanks(&mut self, parent: i32) -> bool {
         let line = self.line_start(self.at);
         let before = self.at;

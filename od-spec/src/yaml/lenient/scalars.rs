@@ -127,7 +127,7 @@ pub(super) fn fold(lines: &[&str]) -> String {
     folded
 }
 
-/// The blanks before a line.
+/// The spaces before a line.
 pub(super) fn indent(line: &str) -> i32 {
     i32::try_from(line.len() - line.trim_start_matches([' ', '\t']).len()).unwrap_or(i32::MAX)
 }
@@ -184,7 +184,7 @@ pub(super) fn unquoted(written: &str, quote: char) -> String {
     let inner = written.get(1..written.len().saturating_sub(1)).unwrap_or_default();
     let lines: Vec<&str> = inner.split('\n').collect();
     let inner = if lines.len() > 1 {
-        // Blanks inside of quotes count, but not those around line breaks.
+        // Spaces inside of quotes count, but not those around line breaks.
         let last = lines.len() - 1;
         let trimmed: Vec<&str> = lines
             .iter()
@@ -223,7 +223,7 @@ pub(super) fn unquoted(written: &str, quote: char) -> String {
     if quote == '\'' { inner.replace("''", "'") } else { unescaped(&inner) }
 }
 
-/// A text in which escapes stand for what they mean.
+/// A text in which escapes are replaced by what they mean.
 pub(super) fn unescaped(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut rest = text.chars();

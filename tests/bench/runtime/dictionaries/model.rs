@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-/// The models, by the feature that enables each. `scaled.py` tells what they are.
+/// The models, by the feature that enables each. `scaled.py` describes them.
 const MODELS: [(&str, &str); 8] = [
     ("size150", "150"),
     ("size2000", "2000"),

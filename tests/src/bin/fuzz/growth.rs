@@ -21,8 +21,8 @@ const PATTERNS: [(&str, Pattern); 16] = [
         "[DeviceInfo]\n".to_owned() + &numbered(n, |at| format!("Vendrname{at}=1\n"))
     }),
     ("one key", |n| object(0x2000) + &numbered(n, |at| format!("DefaultValue={at}\n"))),
-    ("one key with a blank", |n| object(0x2000) + &"Default Value=1\n".repeat(n)),
-    ("keys with a blank", |n| object(0x2000) + &numbered(n, |at| format!("a b{at}=1\n"))),
+    ("one key with a space", |n| object(0x2000) + &"Default Value=1\n".repeat(n)),
+    ("keys with a space", |n| object(0x2000) + &numbered(n, |at| format!("a b{at}=1\n"))),
     ("lines that cannot be read", |n| "nothing\n".repeat(n)),
     ("a list of one object", |n| {
         "[OptionalObjects]\n".to_owned() + &numbered(n, |at| format!("{at}=0x2000\n"))

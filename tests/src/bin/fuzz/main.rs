@@ -67,7 +67,7 @@ fn hunted(texts: Texts, time: Duration, options: &Options) -> Result<usize, Fail
     };
     let word = texts.word();
     println!("{word}: {} seeds, mutants from {}", seeds.len(), options.seed);
-    // What panics is told with its mutant; the usual report would stand between the lines.
+    // What panics is reported with its mutant; the usual report would be between the lines.
     std::panic::set_hook(Box::new(|_| {}));
     let plan = Hunt {
         seeds: &seeds,

@@ -11,7 +11,7 @@ use od_tests::{Failure, root};
 const EDS: [&str; 3] = ["tests/eds", "generated/eds", "od-gen/cli/tests/cli/eds"];
 /// Its specifications and libraries.
 const SPECIFICATIONS: [&str; 3] = ["od-spec/profiles", "tests/ui", "tests/shared"];
-/// The shipped specifications, which stand in several files.
+/// The shipped specifications, which are in several files.
 const SHIPPED: [&str; 2] = ["pitch-control-system", "fullmo-drive"];
 
 /// Every EDS and DCF of the repository, and of the files and directories that are named, in the order of their names.
@@ -40,7 +40,7 @@ pub(crate) fn specifications(more: &[PathBuf]) -> Result<Vec<Seed>, Failure> {
         {
             let path = entry?.path();
             let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            // What is refused as it stands is refused after nearly every change.
+            // What is refused as it is is refused after nearly every change.
             if name.ends_with(".od.yaml") && !name.starts_with("err_") {
                 paths.push(path);
             }

@@ -13,16 +13,17 @@ pub(crate) enum Task {
     Test(TestOptions),
     /// Write everything that is generated and checked in.
     Generate,
-    /// Tell what of that is not current.
+    /// Print what of that is not current.
     CheckGenerated,
     /// Take a directory of foreign EDS and DCF files through everything.
     /// A directory, and of how many files one is taken.
     Corpus(String, usize),
     /// Try mutants of files, with the arguments of the program `fuzz`.
     Fuzz(Vec<String>),
-    /// Measure beside other tools, with the arguments of tests/bench/run.py.
+    /// Measure and compare with other tools, with the arguments of tests/bench/run.py.
     Bench(Vec<String>),
-    /// Measure the reading of EDS files beside other readers, with the arguments of tests/bench/eds/reading.py.
+    /// Measure the reading of EDS files and compare with other readers, with the arguments of
+    /// tests/bench/eds/reading.py.
     BenchReading(Vec<String>),
     /// Print a text about a task, or about all.
     Help(String),
@@ -111,8 +112,8 @@ cargo xtask corpus DIR [--every N]
 
 Takes every EDS, DCF, XDD and XDC below a directory through everything, and prints a line for each problem and a table of the rest:
 bytes to text and back, reading it as it is and as the standard wants it, importing it, the EDS of the import, the import of
-that, and putting it right. Facts that do not come back are problems, but for those with a reason in
-tests/src/foreign/exceptions.rs. Of an XDD or XDC it leaves out what is about lines: bytes, putting right, comparing.
+that, and fixing it. Facts that do not come back are problems, except those with a reason in
+tests/src/foreign/exceptions.rs. Of an XDD or XDC it leaves out what is about lines: bytes, fixing, comparing.
 With --every it takes only each Nth file, in the order of their names.
 
 Exit codes: 0 every file is without a problem, 1 one has problems, 2 wrong command line.
@@ -123,19 +124,19 @@ cargo xtask fuzz [--of TEXTS] [--seconds N] [--seed N] [--mutants N] [--failures
 
 Changes texts by chance, as the seed decides, and holds every mutant to what is promised of all texts. Of each: no panic; every
 place of a finding is in the file; findings read well in every format; memory stays within the bounds of tests/src/fuzz. And of
-  eds             EDS and DCF files: their bytes come back; a model comes out; what is put right says the same, has no more errors than
-                  before and is not changed by a second time; an import compiles and has the same facts, but for those with a
+  eds             EDS and DCF files: their bytes come back; a model comes out; what is fixed says the same, has no more errors than
+                  before and is not changed by a second time; an import compiles and has the same facts, except those with a
                   reason in tests/src/foreign/exceptions.rs
   xdd             XDD and XDC files: there is a model or an error; an XDD and an EDS of the model are read again; an import as of an EDS
   specifications  specifications and libraries: there is a model or an error with a place; the EDS and DCF of a model keep the
                   standard and have its objects; its Rust is Rust, its JSON is JSON, its documents are printed
   settings        settings of a node: the DCF of what is accepted keeps the standard, and has every value
-  templates       templates of documents: a mistake is told with its place
+  templates       templates of documents: a mistake is reported with its place
 It begins with the files of this repository, and with those that are named.
 
   --of TEXTS          only these; without it, all one after the other
   --seconds N         how long in all (60)
-  --seed N            the number of the first mutant (1); the next have the numbers behind it
+  --seed N            the number of the first mutant (1); the next have the numbers after it
   --mutants N         at most so many
   --failures N        end after so many failures of different kinds (1)
 
@@ -149,8 +150,8 @@ const BENCH: &str = "\
 cargo xtask bench [ARGUMENT…]
 cargo xtask bench eds [ARGUMENT…]
 
-Measures odgen beside other tools; the arguments are those of tests/bench/run.py, whose `--help` lists them. With `eds`, how
-long it takes to read, check, convert and import an EDS beside what others read it with; the arguments are those of
+Measures odgen in comparison with other tools; the arguments are those of tests/bench/run.py, whose `--help` lists them. With `eds`, how
+long it takes to read, check, convert and import an EDS in comparison with other readers; the arguments are those of
 tests/bench/eds/reading.py.
 ";
 

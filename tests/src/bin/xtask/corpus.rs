@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use od_tests::Failure;
 use od_tests::foreign::{Checked, EDS, Step, XDD, check, find};
 
-/// Most problems of one file and step that are told.
+/// Most problems of one file and step that are reported.
 const MOST_TOLD: usize = 5;
 
 /// Checks each Nth of the EDS, DCF, XDD and XDC files below a directory; a line for each problem, and what became of all of them.
@@ -22,7 +22,7 @@ pub(crate) fn corpus(directory: &str, every: usize) -> Result<(), Failure> {
         return Err(format!("{} has no EDS, DCF, XDD or XDC", directory.display()).into());
     }
     let paths: Vec<PathBuf> = paths.into_iter().step_by(every).collect();
-    // What panics is told with its file; the usual report would stand between the lines.
+    // What panics is reported with its file; the usual report would be between the lines.
     std::panic::set_hook(Box::new(|_| {}));
     let next = AtomicUsize::new(0);
     let done: Mutex<BTreeMap<PathBuf, Checked>> = Mutex::new(BTreeMap::new());

@@ -27,7 +27,7 @@ const FEATURES: [(&str, &[&str]); 3] = [
 ];
 
 /// Format and lints, as they have to be. What users compile with few features, and `firmware-glue` with all of them, is
-/// looked at beside the workspace, which has those that its members ask for.
+/// looked at in addition to the workspace, which has those that its members ask for.
 pub(crate) fn check(runner: &mut Runner) -> Result<(), Failure> {
     runner.cargo(&["fmt", "--all", "--check"])?;
     format_of_rules(runner)?;
@@ -95,7 +95,7 @@ fn firmware(runner: &mut Runner) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Each feature alone: who needs one compiles no other.
+/// Each feature alone: a user who needs one compiles no other.
 pub(crate) fn features(runner: &mut Runner) -> Result<(), Failure> {
     for (package, features) in FEATURES {
         for feature in features {

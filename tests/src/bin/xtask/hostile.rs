@@ -1,4 +1,4 @@
-//! Documents whose texts try to command the browser, each beside the same one with plain texts.
+//! Documents whose texts try to command the browser, each next to the same one with plain texts.
 
 use od_documents::{self as docs, Format, Templates};
 use od_formats::json;
@@ -10,7 +10,7 @@ use od_tests::{Failure, root};
 
 use crate::parts::Amount;
 
-/// What stands in every place that takes it, with the number of the place; `__hostile` is what the browser looks for.
+/// What is in every place that takes it, with the number of the place; `__hostile` is what the browser looks for.
 const PAYLOADS: [(&str, &str); 3] = [
     (
         "elements",
@@ -27,8 +27,8 @@ const LEAST: usize = 50;
 /// Texts that no page of an English document shows, each with the reason.
 const NOT_SHOWN: [(&str, &str); 6] = [
     ("Geschichte", "of another language"),
-    ("Allowed text", "of a check, which tells it"),
-    ("Reason text", "of a check, which tells it"),
+    ("Allowed text", "of a check, which states it"),
+    ("Reason text", "of a check, which states it"),
     ("Receive inhibit", "of an entry that no PDO of the device has"),
     ("Receive timer", "of an entry that no PDO of the device has"),
     ("Receive start", "of an entry that no PDO of the device has"),

@@ -6,6 +6,7 @@ mod arguments;
 mod browser;
 mod configured;
 mod corpus;
+mod english;
 mod form;
 mod hostile;
 mod manuals;
@@ -132,7 +133,7 @@ fn find_tools(parts: &[&Part]) -> BTreeSet<Tool> {
     found
 }
 
-/// Runs the parts: those of cargo one after the other, and beside them, and then instead of them, the others.
+/// Runs the parts: those of cargo one after the other, and at the same time, and then instead of them, the others.
 fn run_all(parts: &[&'static Part], found: &BTreeSet<Tool>) -> Vec<Row> {
     let of = |turn: Turn| parts.iter().copied().filter(move |part| part.turn == turn);
     prepare(parts);
@@ -148,7 +149,7 @@ fn run_all(parts: &[&'static Part], found: &BTreeSet<Tool>) -> Vec<Row> {
     std::thread::scope(|scope| {
         scope.spawn(|| {
             let done = done;
-            // Nobody listens only when the other thread has panicked.
+            // There is no listener only when the other thread has panicked.
             run_waiting(&mut |row| drop(done.send(row)));
         });
         let mut rows: Vec<Row> = of(Turn::First).map(|part| tell(run(part, found, Output::Told))).collect();
@@ -173,7 +174,7 @@ fn prepare(parts: &[&Part]) {
     println!("compiled and installed in {}", summary::time(begin.elapsed()));
 }
 
-/// Tells what was kept of a part.
+/// Prints what was kept of a part.
 fn tell((row, output): (Row, Output)) -> Row {
     if let Output::Kept(text) = output {
         print!("{}", String::from_utf8_lossy(&text));

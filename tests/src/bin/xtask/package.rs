@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::runner::{self, Runner};
 
-/// What a user finds in each package beside the code.
+/// What a user finds in each package in addition to the code.
 const FILES: [&str; 3] = ["README.md", "LICENSE-MIT", "LICENSE-APACHE"];
 /// What a registry shows.
 const FACTS: [&str; 4] = ["description", "license", "readme", "rust_version"];
@@ -92,7 +92,7 @@ fn unpack(runner: &mut Runner, target: &Path, published: &[Value]) -> Result<Pat
     for package in published {
         let version = package.get("version").and_then(Value::as_str).ok_or("a package has no version")?;
         let directory = format!("{}-{version}", name(package)?);
-        // In a package every file is equally old; cargo tells by their age what to compile.
+        // In a package every file is equally old; cargo decides by their age what to compile.
         let file = target.join("package").join(format!("{directory}.crate"));
         runner.run(Command::new("tar").arg("-xzmf").arg(file).arg("-C").arg(&unpacked))?;
         directories.push((name(package)?, directory));
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn each_package_takes_the_others_from_beside_it() {
+    fn each_package_takes_the_others_from_next_to_it() {
         let packages = [("one", "one-0.1.0".to_owned()), ("two", "two-0.1.0".to_owned())];
         let expected = r#"[workspace]
 resolver = "3"

@@ -7,7 +7,7 @@ use od_tests::Failure;
 
 use crate::runner::Runner;
 use crate::tools::Tool;
-use crate::{browser, form, manuals, package, plain_c, readers, rust_tests};
+use crate::{browser, english, form, manuals, package, plain_c, readers, rust_tests};
 
 /// A part of the tests.
 pub(crate) struct Part {
@@ -61,7 +61,7 @@ pub(crate) enum Amount {
     All,
 }
 
-/// What a part runs beside.
+/// Which other parts a part runs with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Turn {
     /// From the start, one after the other: cargo, which works on all cores.
@@ -120,8 +120,9 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 40] = [
+pub(crate) static PARTS: [Part; 41] = [
     rust("form", "form", Tier::Check, form::check),
+    rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
     rust("rust", "Rust tests", Tier::Gate, rust_tests::integration),
     rust("examples", "examples in the documentation", Tier::Gate, rust_tests::examples),
@@ -167,8 +168,8 @@ pub(crate) static PARTS: [Part; 40] = [
     Part { uses: NODE, ..reader("drives", "EDS readers: drives of odgen new", Tier::Gate, readers::drives) },
     Part {
         uses: NODE,
-        ..reader("foretold", "EDS readers: what is foretold", Tier::Gate, |runner| {
-            readers::foretold(runner, Amount::Sample)
+        ..reader("predicted", "EDS readers: what is predicted", Tier::Gate, |runner| {
+            readers::predicted(runner, Amount::Sample)
         })
     },
     reader("eds2c", "EDS readers: firmware in C", Tier::Gate, readers::firmware_in_c),
@@ -268,12 +269,12 @@ pub(crate) static PARTS: [Part; 40] = [
     Part {
         uses: NODE,
         ..reader(
-            "long-foretold",
-            "EDS readers: what is foretold of all faults",
+            "long-predicted",
+            "EDS readers: what is predicted of all faults",
             Tier::Long(
                 "plants the same faults in more places; the gate takes each sixth of the files, of which all have to agree",
             ),
-            |runner| readers::foretold(runner, Amount::All),
+            |runner| readers::predicted(runner, Amount::All),
         )
     },
     reader(

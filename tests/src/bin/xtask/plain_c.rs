@@ -14,7 +14,7 @@ use crate::parts::Amount;
 use crate::runner::Runner;
 use crate::tools::thumb_linker;
 
-/// Requests by chance, beside those that go through all entries; the sample is the first of all.
+/// Requests by chance, in addition to those that go through all entries; the sample is the first of all.
 const fn random(amount: Amount) -> usize {
     match amount {
         Amount::Sample => 5_000,

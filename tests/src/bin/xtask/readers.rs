@@ -95,8 +95,8 @@ pub(crate) fn self_test(runner: &mut Runner, amount: Amount) -> Result<(), Failu
     runner.python("tests/readers/selftest/selftest.py", sample(amount))
 }
 
-/// Files with planted faults: who refuses them, as `odgen check` foretells it.
-pub(crate) fn foretold(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
+/// Files with planted faults: which readers refuse them, as `odgen check` predicts it.
+pub(crate) fn predicted(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     let odgen = beside("odgen")?;
     let script = Path::new("tests/readers/predictions.py");
     runner.run(Command::new("python3").arg(script).args(sample(amount)).arg("--odgen").arg(odgen))
@@ -111,7 +111,7 @@ pub(crate) fn firmware_in_c(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(Command::new(&python).args(arguments).arg(odgen).arg("--dump").args(dumps))
 }
 
-/// What dcfgen makes of the same values, beside the concise DCF files of odgen.
+/// What dcfgen makes of the same values, compared with the concise DCF files of odgen.
 pub(crate) fn concise_dcf(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let odgen = beside("odgen")?;

@@ -25,7 +25,7 @@ pub(crate) enum Output {
     /// To the user, as it comes.
     #[default]
     Told,
-    /// Here, for a part that runs beside another one.
+    /// Here, for a part that runs at the same time as another one.
     Kept(Vec<u8>),
 }
 
@@ -59,7 +59,7 @@ pub(crate) fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Another program of the workspace, which lies beside this one.
+/// Another program of the workspace, which is next to this one.
 pub(crate) fn beside(name: &str) -> Result<PathBuf, Failure> {
     let program =
         std::env::current_exe()?.with_file_name(name).with_extension(std::env::consts::EXE_EXTENSION);
@@ -98,7 +98,7 @@ impl Runner {
             command.stderr(writer.try_clone()?);
         }
         let child = command.stdout(writer).spawn();
-        // The pipe ends when nobody can write to it any more, not even by running the command again.
+        // The pipe ends when no process can write to it any more, not even by running the command again.
         command.stdout(Stdio::null()).stderr(Stdio::inherit());
         let mut child = child.map_err(|error| format!("cannot run {name}: {error}"))?;
         self.pass_on(BufReader::new(reader))?;
@@ -132,7 +132,7 @@ impl Runner {
         Ok(())
     }
 
-    /// Tells something about the programs, where their output goes.
+    /// Prints something about the programs, where their output goes.
     pub(crate) fn tell(&mut self, text: &str) {
         match &mut self.output {
             Output::Told => println!("{text}"),
@@ -171,7 +171,7 @@ search: 7 passed, 8 failed
 
     #[test]
     #[cfg(unix)]
-    fn exit_codes_tell_a_failure_from_a_gap() {
+    fn exit_codes_distinguish_a_failure_from_a_gap() {
         let run = |text: &str| {
             let mut runner = Runner::default();
             (runner.run(Command::new("sh").args(["-c", text])).map_err(|error| error.to_string()), runner.gap)

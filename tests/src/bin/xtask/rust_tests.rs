@@ -16,7 +16,7 @@ pub(crate) fn compile(runner: &mut Runner, parts: &[&Part]) -> Result<(), Failur
     }
 }
 
-/// The tests beside the sources.
+/// The tests in the folders of the sources.
 pub(crate) fn unit(runner: &mut Runner) -> Result<(), Failure> {
     runner.cargo(&["test", "--quiet", "--workspace", "--lib", "--bins", "--no-fail-fast"])
 }

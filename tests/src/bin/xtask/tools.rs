@@ -159,7 +159,7 @@ fn has_linker() -> bool {
     thumb_linker().is_some()
 }
 
-/// The linker for a Cortex-M, and what tells it that it is a GNU linker: rust-lld or that of Debian.
+/// The linker for a Cortex-M, and the option that states that it is a GNU linker: rust-lld or that of Debian.
 pub(crate) fn thumb_linker() -> Option<Vec<String>> {
     let roots = [sysroot("rustc"), debian_sysroot()];
     let lld = roots.into_iter().flatten().find_map(|root| lld(&root));
@@ -202,7 +202,7 @@ fn is_in_path(name: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// What every Unix has stands for programs that hang, fail and end well.
+    /// What every Unix has represents programs that hang, fail and end well.
     #[test]
     #[cfg(unix)]
     fn a_program_that_does_not_end_is_stopped() {

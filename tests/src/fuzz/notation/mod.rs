@@ -17,7 +17,7 @@ pub use yaml::YAML;
 pub struct Notation {
     /// What its sections look like.
     pub layout: Layout,
-    /// What stands between a key and its value.
+    /// What is between a key and its value.
     pub sign: char,
     /// Most changes of one mutant. After one change of a specification most are refused, and then nothing is printed.
     pub most_changes: usize,
@@ -89,7 +89,7 @@ impl Notation {
                 let rest = text.split_once(self.sign).map_or("", |(_, rest)| rest);
                 format!("  0x{index:04X}:{rest}{line_break}")
             }
-            // The index stands among the attributes.
+            // The index is among the attributes.
             Layout::Elements | Layout::Instructed | Layout::Plain => header.to_owned(),
         }
     }

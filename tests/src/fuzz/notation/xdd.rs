@@ -101,7 +101,7 @@ pub const XDD: Notation = Notation {
     ],
 };
 
-/// What lies beside others of its kind.
+/// What is next to others of its kind.
 const ITEMS: [&str; 2] = ["<CANopenObject", "<parameter"];
 
 /// What these lie in.

@@ -160,9 +160,9 @@ fn what_the_stack_does_not_compile_without_is_refused() {
 }
 
 #[test]
-fn what_the_stack_has_to_be_set_up_for_is_told() {
+fn what_the_stack_has_to_be_set_up_for_is_reported() {
     let has = |text: &str, expected: &str| {
-        let (told, is_made) = told("told.eds", text);
+        let (told, is_made) = told("reported.eds", text);
         assert!(told.contains(expected) && is_made, "{expected} in {told}");
     };
     let whole = eds("");
@@ -220,7 +220,7 @@ fn elements_that_differ_are_members_of_a_record() {
 }
 
 #[test]
-fn names_that_clash_or_are_words_of_c_are_told_apart() {
+fn names_that_clash_or_are_words_of_c_are_distinguished() {
     let entry = |sub: u8, name: &str| {
         format!("      {sub}: {{name: {name}, type: unsigned8, access: rw, default: {sub}}}\n")
     };
@@ -262,7 +262,7 @@ fn a_device_answers_sdos_without_1200h() {
 }
 
 #[test]
-fn a_condition_that_is_too_wide_is_told_where_it_stands() {
+fn a_condition_that_is_too_wide_is_reported_where_it_is() {
     let text = specification(
         "  0x2000: {name: wide, type: unsigned64, access: rw}\n  0x2001: {name: kept, type: unsigned8, access: rw, writable-when: 0x2000 < 50}",
     );
@@ -274,7 +274,7 @@ fn a_condition_that_is_too_wide_is_told_where_it_stands() {
 }
 
 #[test]
-fn a_heading_stands_before_something() {
+fn a_heading_is_before_something() {
     let heading = "/* Elements of each ARRAY, without sub-index 0. */";
     let bare = without(&eds(""), "1016");
     for (name, text, arrays) in [("array.eds", eds(""), 1), ("no-array.eds", bare, 0)] {
@@ -331,7 +331,7 @@ fn var(index: &str, data_type: &str, access: &str, default: &str) -> String {
     )
 }
 
-/// A parameter object of a PDO with so many entries behind sub-index 0.
+/// A parameter object of a PDO with so many entries after sub-index 0.
 fn pdo(index: u16, count: u8) -> String {
     let is_mapping = index & 0x0200 != 0;
     let sub = |sub: u8| {

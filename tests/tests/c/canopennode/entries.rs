@@ -145,7 +145,7 @@ fn bytes(index: &str, entry: &Json) -> Option<Vec<u8>> {
         || index.starts_with("18")
         || index.starts_with("19"))
         && entry["sub"] == 1;
-    // A PDO for whose COB-ID nobody says a value does not exist.
+    // A PDO for whose COB-ID no value is stated does not exist.
     let without = if is_cob_id { vec![0, 0, 0, 0x80] } else { Vec::new() };
     let mut bytes = default(entry).unwrap_or(without);
     bytes.resize(length(entry), 0);

@@ -1,4 +1,5 @@
-//! The extension beside the stack, as an application meets it: rules, locks, conditions, views, extensions of its own, storage.
+//! The extension next to the stack, as an application meets it: rules, locks, conditions, views, extensions of its own,
+//! storage.
 
 use crate::canopennode::project::of_text;
 

@@ -24,7 +24,7 @@ pub(crate) struct Project {
     pub(crate) device: Json,
     /// The whole dump.
     pub(crate) dump: Json,
-    /// What was told when the files were made.
+    /// What was reported when the files were made.
     pub(crate) told: String,
 }
 
@@ -49,7 +49,7 @@ pub(crate) fn of_text(name: &str, text: &str) -> Project {
     of_system(&system, &sources, name).remove(0)
 }
 
-/// What is told about a text that is refused, or of which C is made: the messages, and whether there are files.
+/// What is reported about a text that is refused, or of which C is made: the messages, and whether there are files.
 pub(crate) fn told(name: &str, text: &str) -> (String, bool) {
     let (system, sources) = compiled(name, text);
     let mut diagnostics = Diagnostics::new();
@@ -155,7 +155,7 @@ impl Project {
         output.unwrap()
     }
 
-    /// Writes a file beside those of the device.
+    /// Writes a file next to those of the device.
     pub(crate) fn beside(&self, name: &str, bytes: &[u8]) -> PathBuf {
         let path = self.folder.join(name);
         std::fs::write(&path, bytes).unwrap();

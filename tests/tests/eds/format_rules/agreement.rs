@@ -31,7 +31,7 @@ macro_rules! var {
 
 /// Faults that change what is read, were they read otherwise than they are fixed.
 const TEXTS: &[&str] = &[
-    // Comments that would come to stand above another section, and words that become a comment.
+    // Comments that would come to be above another section, and words that become a comment.
     "[2000] ; unit 0.1 bar\nParameterName=a\nDataType=5\nAccessType=ro",
     "; Far away.\n[2000] ;  0: off\nParameterName=a\nDataType=5\nAccessType=ro",
     "[2000]\nParameterName=a\nDataType=5\nAccessType=ro\n; unit mV\n[2000]\n[2001]\nParameterName=b\nDataType=5\nAccessType=ro",

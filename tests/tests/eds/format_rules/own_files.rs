@@ -1,4 +1,4 @@
-//! What we write ourselves gives no rule a reason, not even for a note, but for what the manuals say.
+//! What we write ourselves gives no rule a reason, not even for a note, except what the manuals say.
 
 use od_spec::fix;
 use od_tests::is_said_by_manuals;

@@ -20,7 +20,7 @@ enum Outcome {
 }
 use Outcome::{Left, Restored, SaysTheSame};
 
-/// A fault: `old` becomes `new`, at its first place. The message stands at the line that holds `at`.
+/// A fault: `old` becomes `new`, at its first place. The message is at the line that holds `at`.
 struct Fault {
     code: &'static str,
     old: &'static str,

@@ -1,4 +1,4 @@
-//! What CANopenEditor writes into an EDS beside the standard: comments with a key, among the keys of an object.
+//! What CANopenEditor writes into an EDS in addition to the standard: comments with a key, among the keys of an object.
 
 use od_formats::eds::write_eds;
 use od_formats::json::dump;
@@ -120,9 +120,9 @@ fn a_comment_after_the_keys_is_about_its_own_object() {
     assert_eq!(label.owner, Owner::Object(Index(0x1017)));
 }
 
-/// Comments of ours say what stores an entry, and somebody named another group since.
+/// Comments of ours say what stores an entry, and a user named another group since.
 #[test]
-fn a_group_against_what_stores_its_entries_is_told() {
+fn a_group_against_what_stores_its_entries_is_reported() {
     let text = "[2000]\nParameterName=level\nObjectType=0x7\n;StorageLocation=PERSIST_MFR\nDataType=0x0005\nAccessType=rw\n\
         DefaultValue=1\nPDOMapping=0\n";
     let mut sources = SourceMap::new();

@@ -111,7 +111,7 @@ fn lost(name: &str, text: &str) -> Vec<String> {
 #[test]
 fn every_key_comes_out_again_or_a_message_is_about_it() {
     assert_eq!(lost("all.dcf", EVERYTHING), [""; 0]);
-    // Without a node, what belongs to one is told: the modules that are plugged in with the other settings.
+    // Without a node, what belongs to one is reported: the modules that are plugged in with the other settings.
     let commissioning = EVERYTHING.find("[DeviceComissioning]").unwrap();
     let end = EVERYTHING.find("[DynamicChannels]").unwrap();
     let eds = format!("{}{}", &EVERYTHING[..commissioning], &EVERYTHING[end..]);
@@ -248,7 +248,7 @@ fn an_import_lists_keys_that_no_line_can_hold() {
 }
 
 #[test]
-fn what_a_specification_says_beside_the_facts_is_in_its_eds() {
+fn what_a_specification_says_in_addition_to_the_facts_is_in_its_eds() {
     let written = eds_of(
         "lamp.od.yaml",
         "od-spec: 1\ntitle: Lamp\nuses: [cia301]\ndevices:\n  lamp:\n    name: Lamp\n    bit-rates: [125]\n    \

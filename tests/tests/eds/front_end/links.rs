@@ -87,7 +87,7 @@ fn lists_are_read_as_far_as_they_can_be() {
     // An object that is not described loses its links, and its sub-indices alone make one.
     let (found, about) = read("[2002ObjectLinks]\nObjectLinks=1\n1=0x2000\n");
     assert_eq!((found, about), (Vec::new(), vec!["EDS427"]));
-    // Data types are no objects here.
+    // Data types are not objects here.
     let (found, about) = read("[2000ObjectLinks]\nObjectLinks=1\n1=0x0005\n");
     assert_eq!((found, about), (one(&[5]), Vec::new()));
     let linked = device("a.eds", &format!("{OBJECT}[2000ObjectLinks]\nObjectLinks=1\n1=0\n"));

@@ -180,7 +180,7 @@ fn module_sections_come_out_as_they_went_in() {
 }
 
 #[test]
-fn a_module_that_is_not_described_is_told() {
+fn a_module_that_is_not_described_is_reported() {
     let (read, _) =
         compiled("coupler.dcf", &format!("{}[ConnectedModules]\nNrOfEntries=1\n1=9\n", coupler()));
     assert!(read.diagnostics.iter().any(|found| found.code == UNKNOWN_MODULE));

@@ -1,4 +1,4 @@
-//! What a DCF says about its node beside the values: names in the application, and files of DOMAINs.
+//! What a DCF says about its node in addition to the values: names in the application, and files of DOMAINs.
 
 use od_formats::eds::write_dcf;
 use od_formats::json::{dump, dump_node};
@@ -112,7 +112,7 @@ fn an_import_says_that_they_belong_to_the_node() {
         foot.ends_with("# - 2003h: UploadFile=out/old.bin\n# - 2003h: DownloadFile=C:\\new.bin\n"),
         "{foot}"
     );
-    // One value is set beside them.
+    // One value is set in addition to them.
     assert_eq!(imported.without_place, 10);
 }
 
@@ -147,7 +147,7 @@ fn what_has_no_place_is_said() {
 
 /// An object and its sub-index 0 are two things in a structure, and one in a VAR.
 #[test]
-fn names_are_told_apart() {
+fn names_are_distinguished() {
     let read = node("pump.dcf", PUMP);
     let at = |index: u16, sub: u8| Denoted::entry(EntryId { index: Index(index), sub: SubIndex(sub) });
     assert_eq!(read.denotations[&Denoted::object(Index(0x2001))], "limits of tank 3");

@@ -66,7 +66,7 @@ fn what_our_files_say_comes_back() {
     }
 }
 
-/// Reading our own file finds nothing, but for notes about what the manuals say.
+/// Reading our own file finds nothing, except for notes about what the manuals say.
 #[test]
 fn our_files_are_without_fault() {
     for (.., eds) in SHIPPED {

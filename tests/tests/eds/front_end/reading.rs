@@ -223,7 +223,8 @@ fn meanings_in_comments_are_read_only_where_they_fit() {
     assert_eq!(object("; Far away.\n\n", ""), "None None [] ");
 }
 
-/// A comment of ours says that an entry is locked, and an EDS shows that as `ro`. Who then writes another access says it of the EDS.
+/// A comment of ours says that an entry is locked, and an EDS shows that as `ro`. Another access that is written then
+/// is that of the EDS.
 #[test]
 fn a_comment_about_a_lock_does_not_change_the_access_that_the_file_states() {
     let shown = |access: &str| {

@@ -217,7 +217,7 @@ fn groups_labels_and_lengths_are_kept() {
             "`CO_accessSRDO=up` cannot be understood; it is left out"
         ]
     );
-    // None of them is something that nobody reads.
+    // None of them is something that is not read.
     assert!(compiled.diagnostics.iter().all(|one| one.code.id != "XDD207"));
 }
 

@@ -12,9 +12,9 @@ fn lift() -> Vec<u8> {
 }
 
 #[test]
-fn a_file_that_is_cut_off_is_no_xml_and_the_place_is_told() {
+fn a_file_that_is_cut_off_is_no_xml_and_the_place_is_reported() {
     let whole = lift();
-    // Behind the last element nothing is missing.
+    // After the last element nothing is missing.
     let end = whole.len() - "\n".len();
     for at in (0..end).step_by(97) {
         let (compiled, _) = compiled("cut.xdd", &whole[..at]);
@@ -44,7 +44,7 @@ proptest! {
     ) {
         let mut text = String::from_utf8(lift()).unwrap();
         for (at, token) in changes {
-            // The values of attributes begin behind `="`.
+            // The values of attributes begin after `="`.
             let places: Vec<usize> = text.match_indices("=\"").map(|(at, _)| at + 2).collect();
             let start = places[at.index(places.len())];
             let end = start + text[start..].find('"').unwrap();
@@ -60,7 +60,7 @@ proptest! {
     }
 }
 
-/// What stands where something else belongs.
+/// What is where something else belongs.
 const TOKENS: [&str; 16] = [
     "",
     "0",

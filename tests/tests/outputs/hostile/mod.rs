@@ -106,7 +106,7 @@ fn a_text_stays_a_text_in_every_output() {
 }
 
 #[test]
-fn a_text_that_turns_is_refused_wherever_it_stands() {
+fn a_text_that_turns_is_refused_wherever_it_is() {
     let payloads = [("\u{202e}", true), ("\u{200f}", true), ("\u{2069}", false)];
     for (at, site) in sites(TEXTS).into_iter().enumerate() {
         // Each site has one of them in turn, and all of a long run.
@@ -124,7 +124,7 @@ fn a_text_that_turns_is_refused_wherever_it_stands() {
     assert!(compiled.diagnostics.iter().any(|one| one.code == codes::TURNED_TEXT));
 }
 
-/// A difference of foreign files is told in lines, and what is coloured in them is ours.
+/// A difference of foreign files is reported in lines, and what is coloured in them is ours.
 #[test]
 fn a_difference_of_foreign_files_shows_what_they_hide() {
     const NAMES: [&str; 2] = ["level \u{1b}[31m\u{9b}2J\u{7f}", "level \u{1b}]0;x\u{7}\u{85}::error::"];

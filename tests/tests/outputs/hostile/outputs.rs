@@ -48,7 +48,7 @@ pub(crate) fn skeleton(system: &System, sources: &SourceMap, complaints: &mut Ve
             }
             _ => (),
         }
-        // JSON escapes what it has to; nobody shows that file.
+        // JSON escapes what it has to; that file is not shown.
         let is_page = kind != "json";
         if is_page && text.contains(|c: char| is_hidden(c) && !matches!(c, '\n' | '\t' | '\r')) {
             complaints.push(format!("{} holds a hidden character", file.path));
@@ -93,7 +93,8 @@ fn eds(file: &Artifact, count: &mut impl FnMut(String), complaints: &mut Vec<Str
             complaints.push(format!("{}: {line:?}", file.path));
         }
         if line.starts_with('[') {
-            // The name of a section of the maker is one of the texts, as its keys are; those of the standard have no blank.
+            // The name of a section of the maker is one of the texts, as its keys are; those of the standard have no
+            // space.
             let name = if line.contains(' ') { "[of the maker]" } else { line };
             name.clone_into(&mut section);
             count(format!("eds {section}"));

@@ -79,7 +79,7 @@ fn facts(entry: &Entry, table: &Table, row: &[String], titles: &Titles) -> Facts
     }
 }
 
-/// The special values among the lines behind the meaning; more about one follows behind its name.
+/// The special values among the lines after the meaning; more about one follows after its name.
 fn special(entry: &Entry, description: &str, language: &str) -> BTreeMap<i128, String> {
     let meaning = entry.about.get(language).unwrap_or_default().replace('\n', " ");
     let rest = description.strip_prefix(&meaning).unwrap_or(description);

@@ -42,7 +42,7 @@ fn sections(text: &str) -> BTreeMap<&str, Section<'_>> {
             name = header.strip_suffix(']').unwrap();
             let comments = std::mem::take(&mut comments);
             let earlier = sections.insert(name, Section { comments, ..Section::default() });
-            assert!(earlier.is_none(), "[{name}] stands twice");
+            assert!(earlier.is_none(), "[{name}] is there twice");
         } else if let Some((key, value)) = line.split_once('=') {
             sections.get_mut(name).unwrap().keys.insert(key, value);
         }
@@ -69,7 +69,7 @@ enum Service {
     NotNeeded,
 }
 
-/// The line of facts, whose parts stand behind semicolons; `None` for another line.
+/// The line of facts, whose parts are separated by semicolons; `None` for another line.
 fn remark<'t>(remarks: &mut Remarks<'t>, part: &'t str) -> bool {
     if let Some(unit) = part.strip_prefix("unit ") {
         remarks.unit = Some(unit);
@@ -92,7 +92,7 @@ fn remark<'t>(remarks: &mut Remarks<'t>, part: &'t str) -> bool {
 
 fn remarks<'t>(entry: &Entry, section: &'t Section<'_>, language: &str) -> Remarks<'t> {
     let mut remarks = Remarks::default();
-    // Warning and meaning stand first.
+    // Warning and meaning are first.
     let has_warning = entry.warning.get(language).is_some();
     let texts = [has_warning, entry.about.get(language).is_some()].into_iter().filter(|has| *has).count();
     let is_warning = section.comments.first().is_some_and(|line| line.starts_with("Warning: "));
@@ -145,7 +145,7 @@ fn facts(entry: &Entry, section: &Section<'_>, language: &str) -> Facts {
         reach: match (remarks.service, access) {
             (Service::NotNeeded, access) => Reach::of(access, false),
             (Service::Only, Access::Wo) => Reach::ServiceWrites,
-            // Read-only for whoever goes by the keys.
+            // Read-only for a reader that goes by the keys.
             (Service::Only, access) => {
                 assert_eq!(access, Access::Ro, "{} is locked", entry.name);
                 Reach::ReadAndServiceWrites
@@ -164,7 +164,7 @@ fn default(entry: &Entry, text: &str) -> Value {
     }
 }
 
-/// Takes the values of the entry's enum out of a list; up to forty of them stand in it.
+/// Takes the values of the entry's enum out of a list; up to forty of them are in it.
 fn remove_values(entry: &Entry, listed: &mut BTreeMap<i128, String>) {
     let Some(TypeKind::Enum(values)) = entry.named_type.as_ref().map(|named| &named.kind) else { return };
     if values.len() <= 40 {

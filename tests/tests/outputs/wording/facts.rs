@@ -1,4 +1,4 @@
-//! The facts of an entry, as every output has to tell them, and how they compare.
+//! The facts of an entry, as every output has to state them, and how they compare.
 
 use std::collections::BTreeMap;
 
@@ -36,12 +36,12 @@ pub(crate) struct Step {
     pub symbol: String,
 }
 
-/// Limits as an output tells them.
+/// Limits as an output states them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Limits {
     /// Those of the model, to the letter.
     Exact { low: Option<i128>, high: Option<i128> },
-    /// Those that narrow the data type; a side that is not told is an end of it, and those of an enum are its values.
+    /// Those that narrow the data type; a side that is not stated is an end of it, and those of an enum are its values.
     Narrowing { low: Option<i128>, high: Option<i128> },
 }
 

@@ -1,4 +1,5 @@
-//! What is told of a device holds by itself: that a manual is silent, or prints something odd, is an erratum and no text of an object.
+//! What is said about a device holds by itself: that a manual is silent, or prints something odd, is an erratum and no
+//! text of an object.
 
 use serde_json::Value as Json;
 
@@ -69,7 +70,7 @@ fn texts_of_objects_do_not_speak_of_the_manual() {
 }
 
 #[test]
-fn remarks_about_a_manual_are_told_from_functions_by_hand() {
+fn remarks_about_a_manual_are_distinguished_from_functions_by_hand() {
     for remark in [
         "Row left blank in the manual.",
         "Booster current. The manual states no sign convention.",

@@ -41,7 +41,7 @@ impl<'a> Output<'a> {
     fn tell(&mut self, index: u16, sub: u8, facts: impl FnOnce(&Entry) -> Facts) {
         let id = EntryId { index: Index(index), sub: SubIndex(sub) };
         let entry = self.device.entry(id).unwrap_or_else(|| panic!("{} has no {id}", self.device.key));
-        assert!(self.facts.insert(id, facts(entry)).is_none(), "{} {id} is told twice", self.device.key);
+        assert!(self.facts.insert(id, facts(entry)).is_none(), "{} {id} is stated twice", self.device.key);
     }
 
     /// Entries that nothing is said about.
@@ -76,7 +76,7 @@ fn for_each_device(mut check: impl FnMut(&str, &System, &Dictionary)) {
     assert_eq!(keys, ["pmm", "pmc", "fullmo"]);
 }
 
-/// That an output tells every entry, and rightly.
+/// That an output describes every entry, and correctly.
 fn assert_complete_and_right(name: &str, output: &Output<'_>) {
     assert_eq!(output.silent(), [], "{name} {}", output.device.key);
     let wrong = output.wrong(name);

@@ -52,7 +52,7 @@ pub(crate) fn number(entry: &Entry, text: &str) -> i128 {
     if let Some((shown, inside)) = text.strip_suffix(')').and_then(|text| text.split_once(" (")) {
         let raw = number(entry, shown);
         let again = plain(entry, inside).or_else(|| named(entry, inside));
-        assert_eq!(again, Some(raw), "{text}: what stands in brackets is another value");
+        assert_eq!(again, Some(raw), "{text}: what is in brackets is another value");
         return raw;
     }
     physical(entry, text)
@@ -114,7 +114,7 @@ pub(crate) struct Range {
     pub high: Option<i128>,
 }
 
-/// A range: `a to b`, `a bis b`, `≥ a`, `at least a`, `≤ b`, `at most b`; `None` for what is none.
+/// A range: `a to b`, `a bis b`, `≥ a`, `at least a`, `≤ b`, `at most b`; `None` for anything else.
 pub(crate) fn range(entry: &Entry, text: &str) -> Option<Range> {
     let end = |text: &str| Some(number(entry, text));
     if let Some((low, high)) = text.split_once(" to ").or_else(|| text.split_once(" bis ")) {

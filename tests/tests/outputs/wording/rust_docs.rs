@@ -32,12 +32,12 @@ pub(crate) fn read(module: &str, output: &mut Output<'_>) {
         let (index, sub) = id.0.split_once("h.").unwrap_or((id.0.trim_end_matches('h'), "0"));
         let index = u16::from_str_radix(index, 16).unwrap();
         let facts = facts.strip_prefix("/// ").unwrap();
-        // An object is no entry; the facts of its members stand there.
+        // An object is not an entry; the facts of its members are there.
         let is_object = facts.starts_with("The group of ") || facts.starts_with("- `");
         if is_object {
             continue;
         }
-        // An accessor by sub-index is about all elements; what only some have in common, stands below.
+        // An accessor by sub-index is about all elements; what only some have in common, is below.
         match heading.split_once("`sub` is the sub-index, 1 to ") {
             Some((_, rest)) => {
                 let last: u8 = rest.split(';').next().unwrap().parse().unwrap();

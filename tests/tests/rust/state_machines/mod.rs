@@ -86,7 +86,7 @@ drive!(
     (set_controlword, statusword, set_statusword)
 );
 
-/// An application that allows everything or nothing, and remembers what it was asked and told.
+/// An application that allows everything or nothing, and remembers what it was asked and notified of.
 #[derive(Default)]
 struct Says {
     allows: bool,
@@ -107,7 +107,7 @@ impl<S: Drive> StateHandler<S> for Says {
     }
 
     fn entered(&mut self, dictionary: &mut S::Dictionary, transition: S::Transition, cause: Cause) {
-        // The dictionary shows the state before the application is told.
+        // The dictionary shows the state before the application is notified.
         assert_eq!(S::of(S::status(dictionary)), Some(S::enters(transition)));
         self.entered.push((S::number(transition), cause));
     }
@@ -341,11 +341,12 @@ fn steps<S: Drive>() {
 }
 
 #[test]
-fn a_word_commands_as_long_as_it_stands() {
+fn a_word_commands_as_long_as_it_is() {
     both(steps::<pmc::machines::PowerDriveState>, steps::<fullmo::machines::PowerDriveState>);
 }
 
-/// A fault is reset by an edge: a bit that stands there from the start is none, one edge counts once, and one that came too early is over.
+/// A fault is reset by an edge: a bit that is there from the start is not an edge, one edge counts once, and one that
+/// came too early is over.
 fn resets<S: Drive>() {
     let (mut dictionary, mut says) = (S::dictionary(), Says::yes());
     let mut machine = StateMachine::at(state::<S>(FAULT));
@@ -392,7 +393,7 @@ impl Naive {
         };
     }
 
-    /// A word that stands in the dictionary, while the application allows the transitions of some bits.
+    /// A word that is in the dictionary, while the application allows the transitions of some bits.
     fn step<S: Drive>(&mut self, word: u16, allowed: u32) {
         let may = |number: u8| allowed >> number & 1 == 1;
         let asked = S::asked(self.state, self.before, word).filter(|number| may(*number));
@@ -414,7 +415,8 @@ impl Naive {
     }
 }
 
-/// A long walk beside a naive machine: words with the useful bits more often than others, events of every number.
+/// A long walk compared with a naive machine: words with the useful bits more often than others, events of every
+/// number.
 fn walk<S: Drive>() {
     let mut seed = 0x2545_F491_4F6C_DD1D_u64;
     let mut random = || {

@@ -47,7 +47,7 @@ fn a_signed_word_is_its_bits() {
 fn a_word_of_32_bits() {
     let mut od = Many::new(1);
     od.set_wide_status(0x1234_5678);
-    // Nobody says where it starts.
+    // It is not stated where it starts.
     let mut machine = WideMachine::at(WideState::Off);
     machine.start(&mut od);
     assert_eq!(od.wide_status(), 0x1234_5678);
@@ -87,7 +87,7 @@ fn where_the_dictionary_has_no_word_or_no_transition_there_are_only_the_tables()
 }
 
 #[test]
-fn nothing_is_made_before_somebody_asks() {
+fn nothing_is_made_before_it_is_asked_for() {
     let machine = StateMachine::<SignedState>::default();
     assert_eq!(machine.asked(i16::MIN).count(), 0);
 }

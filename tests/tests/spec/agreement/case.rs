@@ -128,7 +128,7 @@ pub(crate) struct Exception {
 pub(crate) struct Case {
     /// What it is about.
     about: &'static str,
-    /// The value in question first; behind it what else has to be set for it.
+    /// The value in question first; after it what else has to be set for it.
     pub(crate) set: Vec<Set>,
     verdict: Verdict,
     pub(crate) exceptions: Vec<Exception>,
@@ -176,7 +176,7 @@ impl Case {
     }
 }
 
-/// Large numbers are identifiers and mappings, which nobody reads in decimal.
+/// Large numbers are identifiers and mappings, which are not read in decimal.
 fn shown(raw: Raw) -> String {
     match raw {
         Raw::Number(number @ 0x400..) => format!("{number:X}h"),

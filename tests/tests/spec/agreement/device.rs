@@ -29,7 +29,7 @@ pub(crate) fn said(system: &System, case: &Case) -> Said {
     for Download { id, bytes } in downloads(system, case) {
         let outcome = plant.write_consistent(id.index.0, id.sub.0, &bytes, &mut ());
         if let Err(abort) = outcome {
-            // What prepares the value, and what stands beside it, is right.
+            // What prepares the value, and what is next to it, is right.
             assert_eq!(id, case.set[0].id, "{}: {abort}", case.title());
             return Said::Aborted(abort);
         }

@@ -78,7 +78,7 @@ fn every_reason_is_given_by_a_case() {
 }
 
 #[test]
-fn no_case_stands_twice() {
+fn no_case_is_written_twice() {
     let table = table();
     let titles: BTreeSet<String> = table.iter().map(Case::title).collect();
     assert_eq!(titles.len(), table.len());

@@ -18,12 +18,12 @@ macro_rules! reasons {
 
 reasons! {
     DefaultNeedsNoWrite: "a specification states the value that the entry has; nothing writes it";
-    ReservedBitIsHarmless: "a reserved bit is a warning to who writes it; a device ignores it (CiA 301: reserved bits are not checked)";
-    WatchingNobodyIsHarmless: "an entry of 1016h that watches nobody is a warning to who writes it; a device leaves it unused";
-    DefaultIsPredefined: "masters listen where the pre-defined connection set says: a warning to who makes a device, not to who configures one";
+    ReservedBitIsHarmless: "a reserved bit is a warning to its author; a device ignores it (CiA 301: reserved bits are not checked)";
+    WatchingNobodyIsHarmless: "an entry of 1016h that watches no node is a warning to its author; a device leaves it unused";
+    DefaultIsPredefined: "masters listen where the pre-defined connection set says: a warning to the maker of a device, not to the user who configures one";
     TwiceIsHarmless: "an entry twice in one PDO wastes room, and breaks nothing: a warning";
     EmptyIsSwitchedOff: "who sets the number of mapped entries to 0 switches the PDO off; a specification says so by `valid: no`";
-    NeverSentIsHarmless: "a PDO that is never sent is no error of the device; whoever configures it wants it sent";
+    NeverSentIsHarmless: "a PDO that is never sent is no error of the device; its user wants it sent";
     NothingReachesIt: "a SYNC start value that no counter reaches leaves a PDO silent, or has no effect: a warning";
     OnlyWhileConditionHolds: "a DCF cannot know in which state the device will be: a warning";
     EdsLineHoldsLess: "an EDS or DCF line cannot hold the text; the bus can";

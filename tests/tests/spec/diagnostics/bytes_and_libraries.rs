@@ -1,4 +1,4 @@
-//! What is said about bytes that are no text, and about library files.
+//! What is said about bytes that are not text, and about library files.
 
 use od_spec::source::SourceMap;
 use od_spec::{Compiled, Loader, add_source, compile, read_text};
@@ -62,7 +62,7 @@ impl Loader for Files {
     }
 }
 
-/// Compiles a specification that finds these files beside it.
+/// Compiles a specification that finds these files next to it.
 pub(crate) fn compiled_with(
     text: &str,
     files: &'static [(&'static str, &'static [u8])],
@@ -125,7 +125,7 @@ fn libraries_from_files() {
         help: convert the file, for example with `iconv -f latin1 -t utf-8`
         "#);
     insta::assert_snapshot!(with_libraries(LAMP, &[("../lamps.od.yaml", b"od-spec: 1\ntitle: Lamps\n")]), @r#"
-        error[OD0114]: `../lamps.od.yaml` is no library
+        error[OD0114]: `../lamps.od.yaml` is not a library
          --> plant/lamp.od.yaml:3:16
           |
         3 | uses: [cia301, ../lamps.od.yaml]
@@ -136,7 +136,7 @@ fn libraries_from_files() {
     insta::assert_snapshot!(
         with_libraries(LAMP, &[("../lamps.od.yaml", b"od-spec: 1\nprofile: lamps\ntitle: Lamps\nuses: [cia301]\n")]),
         @r#"
-        error[OD0114]: `../lamps.od.yaml` is no library
+        error[OD0114]: `../lamps.od.yaml` is not a library
          --> plant/lamp.od.yaml:3:16
           |
         3 | uses: [cia301, ../lamps.od.yaml]

@@ -1,4 +1,4 @@
-//! The cases of `tests/ui`: what is said about each was reviewed, and their names tell it.
+//! The cases of `tests/ui`: what is said about each was reviewed, and their names say it.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -22,7 +22,7 @@ fn cases_say_what_was_reviewed() {
 }
 
 #[test]
-fn names_of_cases_tell_what_comes_out() {
+fn names_of_cases_say_what_comes_out() {
     for (name, text, (_, _, compiled)) in said_of_cases() {
         let (errors, warnings) = compiled.diagnostics.count();
         let kind = name.split('_').next().unwrap();
@@ -41,7 +41,7 @@ fn names_of_cases_tell_what_comes_out() {
         if let Some(code) = name.split('_').nth(1).and_then(od_spec::code) {
             assert!(codes(&compiled.diagnostics).contains(&code), "{name} does not provoke {code}");
         }
-        assert!(text.starts_with("# "), "{name}: the first line tells what is wrong");
+        assert!(text.starts_with("# "), "{name}: the first line says what is wrong");
     }
 }
 

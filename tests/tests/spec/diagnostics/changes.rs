@@ -1,4 +1,4 @@
-//! The changes that messages bring with them: each puts right what its message is about.
+//! The changes that messages bring with them: each fixes what its message is about.
 
 use std::collections::BTreeSet;
 
@@ -12,7 +12,7 @@ fn changed(text: &str, edit: &Edit) -> String {
     [&text[..start], &edit.text, &text[end..]].concat()
 }
 
-/// What tells a message from others of its kind.
+/// What distinguishes a message from others of its kind.
 fn said(diagnostic: &Diagnostic) -> (&'static str, String) {
     (diagnostic.code.id, diagnostic.message.clone())
 }
@@ -43,7 +43,7 @@ fn every_change_puts_its_message_right() {
     assert!(codes.len() >= CODES, "{codes:?}");
 }
 
-/// Whoever is asked whether one word was meant finds it as a change.
+/// Where a message asks whether one word was meant, this word is a change.
 #[test]
 fn the_word_that_a_help_asks_about_is_a_change() {
     let mut without = BTreeSet::new();

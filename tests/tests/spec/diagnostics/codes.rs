@@ -16,7 +16,7 @@ use crate::diagnostics::{codes, parameter_files, parts, plants, run, said_of_cas
 #[path = "../../../../od-gen/cli/tests/cli/provoked.rs"]
 mod command_line;
 
-/// Something that provokes a code and is no specification by itself.
+/// Something that provokes a code and is not a specification by itself.
 struct Provocation {
     code: &'static Code,
     diagnostics: fn() -> Diagnostics,

@@ -89,7 +89,7 @@ fn ids(diagnostics: &Diagnostics) -> BTreeSet<&'static str> {
 }
 
 #[test]
-fn each_is_refused_for_its_code_alone_and_accepted_when_put_right() {
+fn each_is_refused_for_its_code_alone_and_accepted_when_fixed() {
     let mut tried = BTreeSet::new();
     let mut wrong = Vec::new();
     for code in all_codes() {

@@ -1,8 +1,8 @@
 //! Every message to the user: the cases in `tests/ui` with what the compiler says about them, what is said about bytes,
 //! libraries and settings, and rules that hold for every message.
 //!
-//! The name of a case tells what comes out of it: `err_` errors, `warn_` warnings only, `note_` notes only, `ok_` nothing at all; the
-//! code in the name is among its messages.
+//! The name of a case says what comes out of it: `err_` errors, `warn_` warnings only, `note_` notes only, `ok_`
+//! nothing at all; the code in the name is among its messages.
 
 #![expect(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 

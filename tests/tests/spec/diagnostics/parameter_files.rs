@@ -23,7 +23,7 @@ pub(crate) struct Settled {
     pub(crate) sources: SourceMap,
 }
 
-/// Reads parameter files for the oven; of one, `#2` stands behind the name of the second.
+/// Reads parameter files for the oven; of one, `#2` follows the name of the second.
 pub(crate) fn settled(name: &str, texts: &[&str]) -> Settled {
     let (mut sources, _, compiled) = run("oven.od.yaml", OVEN);
     let system = compiled.system.expect("a specification without mistakes");
@@ -97,7 +97,7 @@ fn cases_of_parameter_files_say_what_was_reviewed() {
 }
 
 #[test]
-fn names_of_cases_of_parameter_files_tell_what_comes_out() {
+fn names_of_cases_of_parameter_files_say_what_comes_out() {
     for (name, text) in cases() {
         let Settled { diagnostics, sources, .. } = settled(&name, &[&text]);
         let (errors, warnings) = diagnostics.count();
@@ -115,7 +115,7 @@ fn names_of_cases_of_parameter_files_tell_what_comes_out() {
         if let Some(code) = name.split('_').nth(1).and_then(od_spec::code) {
             assert!(codes(&diagnostics).contains(&code), "{name} does not provoke {code}");
         }
-        assert!(text.starts_with("# "), "{name}: the first line tells what is wrong");
+        assert!(text.starts_with("# "), "{name}: the first line says what is wrong");
         for diagnostic in &diagnostics {
             check_wording(diagnostic, &sources, &name);
             assert!(!diagnostic.labels.is_empty(), "{name}: {} has no place", diagnostic.message);
@@ -162,7 +162,7 @@ fn an_unlock_lifts_the_lock_of_one_entry_alone() {
         let Settled { assigned, diagnostics, .. } = settled("oven.yaml", &[&text(name)]);
         assert!(diagnostics.is_empty() && assigned.unlocked.len() == 1, "{name}");
     }
-    // It may stand in another layer than the value.
+    // It may be in another layer than the value.
     let unlock = "od-parameters: 1\nunlock: [calibration]\n";
     let value = "od-parameters: 1\nparameters: {calibration: 101}\n";
     assert!(settled("oven.yaml", &[unlock, value]).diagnostics.is_empty());

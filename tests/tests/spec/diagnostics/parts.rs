@@ -127,7 +127,7 @@ objects:
           |
         help: write a map whose keys are names
 
-        error[OD0105]: key `lamp` stands twice in this map
+        error[OD0105]: key `lamp` is written twice in this map
          --> plant/rest.od.yaml:7:3
           |
         7 |   lamp: {transmit: {1: {map: [0x2001]}}}
@@ -140,7 +140,7 @@ objects:
           |
         help: remove one of the two, or join their values
 
-        error[OD0105]: key `0x2000` stands twice in this map
+        error[OD0105]: key `0x2000` is written twice in this map
           --> plant/rest.od.yaml:9:3
            |
          9 |   0x2000: {name: current, type: unsigned16, access: ro}

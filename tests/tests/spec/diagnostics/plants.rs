@@ -129,7 +129,7 @@ pub(crate) fn provoked() -> Vec<&'static Code> {
 }
 
 #[test]
-fn names_of_cases_of_plants_tell_what_comes_out() {
+fn names_of_cases_of_plants_say_what_comes_out() {
     for (name, text) in cases() {
         let Checked { diagnostics, sources, plant, settled } = checked(&name, &text);
         let (errors, warnings) = diagnostics.count();
@@ -147,7 +147,7 @@ fn names_of_cases_of_plants_tell_what_comes_out() {
         if let Some(code) = name.split('_').nth(1).and_then(od_spec::code) {
             assert!(codes(&diagnostics).contains(&code), "{name} does not provoke {code}");
         }
-        assert!(text.starts_with("# "), "{name}: the first line tells what is wrong");
+        assert!(text.starts_with("# "), "{name}: the first line says what is wrong");
         assert_eq!(is_plant(&text), name != "err_od0110_empty.yaml", "{name}");
         for diagnostic in &diagnostics {
             check_wording(diagnostic, &sources, &name);

@@ -266,9 +266,9 @@ fn settings_of_a_large_specification() {
     );
 }
 
-/// As in a specification, where they stand at most as escapes.
+/// As in a specification, where they are at most written as escapes.
 #[test]
-fn characters_that_nobody_sees_are_refused() {
+fn invisible_characters_are_refused() {
     let label = "od-spec: 1\ntitle: Lamp\nuses: [cia301]\ndevices:\n  lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}\n\
         objects:\n  0x2000: {name: label, type: unicode-string, access: rw, capacity: 20}\n";
     for hidden in ["\u{202e}", "\u{2069}", "\u{200f}", "\u{1b}", "\u{7}", "\n", "\t", "\u{9b}", "\u{2028}"] {

@@ -74,7 +74,7 @@ fn settings_through_a_view_keep_the_limits_of_its_target() {
         5064=800: 5064h = Integer(800)
         5065=10 V, 2000=1: error[OD0406]: 6065h (voltage): 10000 mV is outside 0 mV to 9000 mV
         5065=7 V, 2000=1: 2000h = Integer(1)
-        5066=1500 mV: error[OD0412]: 5066h (fine voltage): 1500 mV is no whole number of steps of 6066h (battery)
+        5066=1500 mV: error[OD0412]: 5066h (fine voltage): 1500 mV is not a whole number of steps of 6066h (battery)
         5066=3000 mV: 5066h = Integer(3000)
         "#);
 }
@@ -212,11 +212,11 @@ fn settings_that_a_dcf_cannot_hold() {
         key=A5…A5A5A5A5A5A5A5A5A5A5A5: error[OD0319]: 2002h (key): the value has 121 bytes, a line holds 120
         label=a;b: error[OD0319]: 2001h (label): the value holds `;`, which EDS readers misread
         label=a=b: error[OD0319]: 2001h (label): the value holds `=`, which EDS readers misread
-        label= a: error[OD0319]: 2001h (label): the value has blanks at its ends, which are lost
+        label= a: error[OD0319]: 2001h (label): the value has spaces at its ends, which are lost
         label=: error[OD0319]: 2001h (label): the value is empty, which reads as no value
         title=≤ 5: error[OD0319]: 2007h (title): the value holds `=`, which EDS readers misread
         title=Größe: error[OD0319]: 2007h (title): the value has characters that an EDS cannot hold
-        title=a→b: error[OD0115]: found U+0009, which nobody sees
+        title=a→b: error[OD0115]: found U+0009, which is invisible
         ratio=1e39: error[OD0401]: found `1e39`, expected a finite number
         ratio= 0.5 : 2003h = Real(0.5)
         "#);

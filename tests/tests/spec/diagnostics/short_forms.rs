@@ -250,7 +250,7 @@ fn a_heartbeat_consumer_is_its_raw_value() {
 }
 
 #[test]
-fn what_a_library_cannot_say_is_told_at_its_place() {
+fn what_a_library_cannot_say_is_reported_at_its_place() {
     const WRONG: &[(&str, &[u8])] = &[(
         "../lamps.od.yaml",
         b"od-spec: 1

@@ -72,7 +72,7 @@ fn messages_about_eds_texts_keep_the_wording_rules() {
         for diagnostic in &diagnostics {
             check_wording(diagnostic, &sources, code.id);
             assert!(!diagnostic.labels.is_empty(), "{code}: {} has no place", diagnostic.message);
-            // Who is told that a command does it must find that it does.
+            // A command that is recommended must do what is recommended.
             let promises = diagnostic.help.as_deref().unwrap_or_default().contains("`odgen fix` does");
             let is_about_bytes = code.id == "EDS102";
             assert!(!promises || is_about_bytes || !diagnostic.edits.is_empty(), "{code}: nothing is mended");

@@ -1,4 +1,4 @@
-//! Settings by chance, of values where mistakes are made: at limits and beside them, identifiers, counts, mappings.
+//! Settings by chance, of values where mistakes are made: at limits and next to them, identifiers, counts, mappings.
 
 use od_spec::model::{DataType, Dictionary, Entry, EntryId, Index, Object, Role, SubIndex, TypeKind, Value};
 use od_tests::fuzz::Random;
@@ -44,7 +44,7 @@ pub(crate) fn settings(device: &Dictionary, random: &mut Random) -> Vec<Setting>
         }
         let Some(object) = object else { break };
         let Some(entry) = random.pick(&object.entries) else { break };
-        // What nobody can write says little, and there is much of it.
+        // What cannot be written says little, and there is much of it.
         if !entry.access.is_writable() && random.chance(95) {
             continue;
         }

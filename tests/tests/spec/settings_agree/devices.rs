@@ -33,7 +33,7 @@ mod bench {
     od_macros::object_dictionary!("shared/settings.od.yaml");
 }
 
-/// A node that nobody has unlocked for service.
+/// A node that is not unlocked for service.
 pub(crate) trait Node {
     fn write(&mut self, id: EntryId, data: &[u8]) -> Result<(), AbortCode>;
     fn read(&self, id: EntryId) -> Result<Vec<u8>, AbortCode>;

@@ -1,8 +1,8 @@
 //! Settings by chance: what `odgen dcf` accepts, a device takes, step by step in the order of a download. The device is the
 //! generated dictionary, locked, with all its conditions.
 //!
-//! What odgen refuses and the device would take is no mistake of whoever uses it, but a decision: each code has its reason here, and
-//! some case that needs it.
+//! What odgen refuses and the device would take is not a mistake of its user, but a decision: each code has its reason
+//! here, and some case that needs it.
 
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 

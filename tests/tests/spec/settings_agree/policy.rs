@@ -28,7 +28,7 @@ pub(crate) const REFUSED_BY_POLICY: &[Difference] = &[
     },
     Difference {
         code: "OD0516",
-        reason: "a PDO that is never sent is no error of the device; whoever configures it wants it sent",
+        reason: "a PDO that is never sent is no error of the device; its user wants it sent",
         device: "bench",
         settings: || vec![Setting::number(0x1800, 1, 0x4000_0185), Setting::number(0x1800, 2, 253)],
     },
@@ -68,7 +68,7 @@ pub(crate) const ACCEPTED_IN_SOME_STATE: &[Difference] = &[
     },
     Difference {
         code: "OD0838",
-        reason: "each value is right beside the others; what is missing is a way from the defaults to them",
+        reason: "each value is right with the others; what is missing is a way from the defaults to them",
         device: "bench",
         settings: || vec![Setting::number(0x2041, 0, 40), Setting::number(0x2042, 0, 60)],
     },

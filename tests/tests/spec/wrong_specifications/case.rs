@@ -70,7 +70,7 @@ pub(crate) fn said(specification: &str, set: &[&str]) -> Vec<(&'static str, Stri
 }
 
 /// What the rules say about the EDS files of a specification that is right, held to the standard. What the file says as a text
-/// has tests of its own, and nobody knows the vendor's number.
+/// has tests of its own, and the vendor's number is unknown.
 pub(crate) fn said_of_eds(specification: &str) -> Vec<(&'static str, String)> {
     let mut sources = SourceMap::new();
     let root = sources.add("case.od.yaml", whole(specification));

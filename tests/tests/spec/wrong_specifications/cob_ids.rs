@@ -2,7 +2,7 @@
 
 use crate::wrong_specifications::case::{self, Case, Right};
 
-/// A device with TPDO 1 and RPDO 1, features beside the usual ones, and further objects.
+/// A device with TPDO 1 and RPDO 1, features in addition to the usual ones, and further objects.
 fn device(features: &str, objects: &str) -> String {
     pdos(features, objects, "1: {map: [wish]}", "1: {map: [level]}")
 }

@@ -1,8 +1,9 @@
 //! Specifications with one mistake, each with the code of the rule that has to find it; and the right specifications that are
 //! nearest to them, about which nothing at all is said. A case may also be about settings of a node.
 //!
-//! A specification is written as in the examples of the rules: what it leaves out of version, title, `uses:` and `devices:` stands
-//! above it. Its devices have the features `heartbeat producer` and `emergency`, unless it says otherwise.
+//! A specification is written as in the examples of the rules: what it leaves out of version, title, `uses:` and
+//! `devices:` is above it. Its devices have the features `heartbeat producer` and `emergency`, unless it says
+//! otherwise.
 
 mod case;
 mod cob_ids;

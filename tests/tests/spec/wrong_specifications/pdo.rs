@@ -2,7 +2,7 @@
 
 use crate::wrong_specifications::case::{self, Case, Right};
 
-/// A device with RPDO 1 and TPDO 1, `features` beside heartbeat, `objects`, and more keys of the two PDOs.
+/// A device with RPDO 1 and TPDO 1, `features` in addition to heartbeat, `objects`, and more keys of the two PDOs.
 fn device(features: &str, objects: &str, receive: &str, transmit: &str) -> String {
     let features = if features.is_empty() { String::new() } else { format!(", {features}") };
     let key = |keys: &str| if keys.is_empty() { String::new() } else { format!("{keys}, ") };
@@ -107,12 +107,18 @@ fn sync_start() -> Vec<Case> {
 fn times() -> Vec<Case> {
     let wrong = |name, specification| case::wrong(name, specification, TIME);
     vec![
-        wrong("an event timer beside SYNC", tpdo("sync consumer", "transmission: 1, event-timer: 100")),
-        wrong("an event timer beside remote frames", tpdo("", "transmission: 253, event-timer: 100")),
-        wrong("an inhibit time beside SYNC", tpdo("sync consumer", "transmission: 240, inhibit-time: 1")),
+        wrong(
+            "an event timer together with SYNC",
+            tpdo("sync consumer", "transmission: 1, event-timer: 100"),
+        ),
+        wrong("an event timer together with remote frames", tpdo("", "transmission: 253, event-timer: 100")),
+        wrong(
+            "an inhibit time together with SYNC",
+            tpdo("sync consumer", "transmission: 240, inhibit-time: 1"),
+        ),
         wrong("an inhibit time of an RPDO", rpdo("", "inhibit-time: 1")),
         wrong("an event timer shorter than the inhibit time", tpdo("", "event-timer: 9, inhibit-time: 91")),
-        wrong("an event timer set beside SYNC", counter(0, "", TIMES)).set(&["1800.5=1"]),
+        wrong("an event timer set together with SYNC", counter(0, "", TIMES)).set(&["1800.5=1"]),
         wrong("an event timer set too short", tpdo("", "event-timer: 10, inhibit-time: 100"))
             .set(&["1800.5=9"]),
         wrong("an inhibit time set too long", tpdo("", "event-timer: 10, inhibit-time: 100"))
@@ -180,7 +186,7 @@ fn right_times() -> Vec<Right> {
             tpdo("", "event-timer: 10, inhibit-time: 100"),
         ),
         case::right("no event timer, an inhibit time", tpdo("", "event-timer: 0, inhibit-time: 65535")),
-        case::right("times of 0 beside SYNC", tpdo("sync consumer", TIMES)),
+        case::right("times of 0 together with SYNC", tpdo("sync consumer", TIMES)),
         case::right("an RPDO that watches", rpdo("", "event-timer: 100")),
         case::right(
             "an RPDO that watches for SYNC",

@@ -12,7 +12,7 @@ fn drive(objects: &str) -> String {
     with_modes("0x10000", "", objects)
 }
 
-/// A drive with a value of 6502h, an enum `mode` that stands for the type of 6060h, and further objects.
+/// A drive with a value of 6502h, an enum `mode` that represents the type of 6060h, and further objects.
 fn with_modes(modes: &str, values: &str, objects: &str) -> String {
     let types = match values {
         "" => String::new(),
@@ -293,7 +293,7 @@ pub(crate) fn right() -> Vec<Right> {
         of_modes("no mode", "0x20", "", "  0x6060: {from: cia402, default: 0}"),
         of_modes("a mode that is listed, set", "0x20", "", "").set(&["6060=6"]),
         of_modes(
-            "a mode of the maker's own, beside the bits of CiA 402",
+            "a mode of the maker's own, in addition to the bits of CiA 402",
             "0x10020",
             "0: none, -1: service, 6: homing",
             OWN_MODE,

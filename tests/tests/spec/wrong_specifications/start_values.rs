@@ -1,4 +1,4 @@
-//! Values that a device starts with where nobody has said one.
+//! Values that a device starts with where none is stated.
 
 use crate::wrong_specifications::case::{self, Case, Right};
 

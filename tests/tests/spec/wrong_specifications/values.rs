@@ -2,7 +2,7 @@
 
 use crate::wrong_specifications::case::{self, Case, Right};
 
-/// An object, with features beside the usual ones.
+/// An object, with features in addition to the usual ones.
 fn with(features: &str, object: &str) -> String {
     format!(
         "devices:\n  io: {{name: Example, bit-rates: [125], features: [heartbeat producer{features}]}}\nobjects:\n  {object}"
@@ -103,7 +103,7 @@ pub(crate) fn wrong() -> Vec<Case> {
         case::wrong("a REAL32 of twelve digits", real("real32", "0.123456789012"), "OD0830"),
         case::wrong("an integer that a REAL32 does not have", real("real32", "16777217"), "OD0830"),
         case::wrong(
-            "a REAL32 with digits behind those of a REAL64",
+            "a REAL32 with digits after those of a REAL64",
             real("real32", "0.10000000000000000001"),
             "OD0830",
         ),

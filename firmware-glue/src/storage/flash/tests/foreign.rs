@@ -58,7 +58,7 @@ fn a_node_does_not_take_identifiers_of_another() {
         (0x206, 0x86, 1000)
     );
     assert_eq!(read(&device, 0x2000, 0), 99, "it does not follow the node-ID");
-    // What node 6 saves beside it does not take it away from node 5.
+    // What node 6 saves next to it does not take it away from node 5.
     store.save(&device, &[Storage::Application]).expect("stored");
     let loaded = store.load(&mut device, at(5), &ALL);
     assert_eq!(loaded.outcome(Storage::Communication), Outcome::Restored);

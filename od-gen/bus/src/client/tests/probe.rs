@@ -30,7 +30,7 @@ fn a_node_is_asked_what_it_has() {
         assert_eq!(probed(&mut prober, 0x20FF), []);
         let identity = probed(&mut prober, 0x1018);
         assert_eq!(identity.iter().map(|(sub, _)| *sub).collect::<Vec<_>>(), [0, 1, 2, 3, 4]);
-        assert!(Prober::new(client, 7).is_err(), "nobody is there");
+        assert!(Prober::new(client, 7).is_err(), "nothing answers");
     });
 }
 
@@ -51,7 +51,7 @@ fn aborting(answered: Answered) -> impl FnMut(usize, Frame) -> Vec<Frame> {
 }
 
 #[test]
-fn what_a_node_refuses_to_tell_is_there() {
+fn what_a_node_refuses_to_report_is_there() {
     let answered: Answered = |index, sub| match (index, sub) {
         (0x2000, 0) => Some(0x0601_0001),
         (0x2001, 0) => Some(0x0800_0022),

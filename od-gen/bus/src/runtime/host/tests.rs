@@ -57,7 +57,7 @@ fn element(node: &VirtualNode<'_>, index: u16, sub: u8) -> u32 {
 }
 
 #[test]
-fn the_node_tells_that_it_stores_and_restores_on_command() {
+fn the_node_reports_that_it_stores_and_restores_on_command() {
     with_lamp(|lamp| {
         let tells = |lamp: &VirtualNode<'_>| [0x1010, 0x1011].map(|index| element(lamp, index, 1));
         assert_eq!(tells(lamp), [1, 1]);

@@ -188,7 +188,7 @@ static ODR_t check_number(const OD_rule_t *rule, const uint8_t *bytes) {
     return outcome;
 }
 
-/* A VISIBLE_STRING holds 20h to 7Eh; zeros may stand behind the characters and nowhere else. */
+/* A VISIBLE_STRING holds 20h to 7Eh; zeros may follow the characters and nowhere else. */
 static ODR_t check_visible(const OD_stream_t *stream, const uint8_t *bytes, OD_size_t count) {
     const uint8_t *const before = (const uint8_t *)stream->dataOrig;
     bool_t has_ended = (bool_t)((stream->dataOffset > 0U) && (before != NULL) && (before[stream->dataOffset - 1U] == 0U));
@@ -207,7 +207,7 @@ static ODR_t check_visible(const OD_stream_t *stream, const uint8_t *bytes, OD_s
     return outcome;
 }
 
-/* Zeros may stand behind the characters of a UNICODE_STRING and nowhere else. */
+/* Zeros may follow the characters of a UNICODE_STRING and nowhere else. */
 static ODR_t check_unicode(const OD_stream_t *stream, const uint8_t *bytes, OD_size_t count) {
     ODR_t outcome = ODR_OK;
 
@@ -269,7 +269,7 @@ static bool_t is_locked(const OD_rule_t *rule) {
     return (bool_t)(((rule->flags & OD_RULE_LOCKED) != 0U) && ((is_unlocked == NULL) || !is_unlocked()));
 }
 
-/* ---- What stands behind the rules ---- */
+/* ---- What comes after the rules ---- */
 
 static ODR_t read_behind(OD_ruledExtension_t *extension, OD_stream_t *stream, void *buf, OD_size_t count, OD_size_t *countRead) {
     OD_extension_t *const behind = extension->behind;

@@ -301,7 +301,7 @@ static unsigned int bits_in(uint32_t word)
     return count;
 }
 
-/** Where an object stands among all, if it is there. */
+/** The position of an object among all, if it is there. */
 static bool position_of(const od_table_t *table, uint16_t index, size_t *position)
 {
     uint16_t number = (uint16_t)(index >> BITS_OF_BLOCK);
@@ -599,7 +599,7 @@ static uint32_t value_of(const od_table_t *table, const uint8_t *image, found_t 
     return code;
 }
 
-/** The present number of an entry; false where it has more than 32 bits, or is none. */
+/** The present number of an entry; false where it has more than 32 bits, or is not a number. */
 static bool number_in(const od_table_t *table, const uint8_t *image, found_t found, uint32_t *number)
 {
     uint16_t size = found.shared->size;
@@ -617,7 +617,7 @@ static bool number_in(const od_table_t *table, const uint8_t *image, found_t fou
     return whole <= NOTHING;
 }
 
-/** The present number at an index and sub-index, or what stands for none. */
+/** The present number at an index and sub-index, or what represents none. */
 static uint32_t current(
     const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub, uint32_t otherwise)
 {
@@ -687,7 +687,7 @@ static uint32_t check_number(const od_table_t *table, const od_attributes_t *sha
 }
 
 /**
- * A VISIBLE_STRING holds 20h to 7Eh, a UNICODE_STRING whole units; zeros may pad both, but stand
+ * A VISIBLE_STRING holds 20h to 7Eh, a UNICODE_STRING whole units; zeros may pad both, but are
  * between no characters.
  */
 static uint32_t check_text(uint8_t data_type, const uint8_t *data, size_t length)
@@ -960,7 +960,7 @@ static uint32_t check_communication(
     if (((index == 0x1005U) || (index == 0x1012U)) && (sub == 0U)) {
         before = is_present ? now : 0U;
         if ((index == 0x1005U) && ((value & ~before & PRODUCER) != 0U) && !has_number(table, image, 0x1006U, 0U)) {
-            /* Nobody could say how often. */
+            /* It would be unknown how often. */
             return OD_ABORT_INVALID_VALUE;
         }
         return check_produced(before, value);
@@ -1237,7 +1237,7 @@ uint32_t od_write_consistent(
     return write_at(table, image, index, sub, data, length, application, true);
 }
 
-/** A DOMAIN with an access; `refusal` tells that it has not. */
+/** A DOMAIN with an access; `refusal` says that it has not. */
 static uint32_t find_domain(
     const od_table_t *table, uint16_t index, uint8_t sub, uint8_t access, uint32_t refusal, found_t *found)
 {
@@ -1366,7 +1366,7 @@ bool od_restore(
     return true;
 }
 
-/** The bytes of an entry in the image, with what tells the length of a string; false for one that lies elsewhere. */
+/** The bytes of an entry in the image, with what holds the length of a string; false for one that lies elsewhere. */
 static bool place_of(found_t found, uint32_t *start, uint32_t *end)
 {
     *start = (uint32_t)offset_of(found);

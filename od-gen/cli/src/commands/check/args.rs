@@ -15,7 +15,7 @@ pub(crate) struct CheckArgs {
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
 
-    /// Take these findings as errors: a code such as EDS503, the codes that begin with EDS5, `warnings` or `notes`
+    /// Report these findings as errors: a code such as EDS503, the codes that begin with EDS5, `warnings` or `notes`
     #[arg(long, value_name = "CODE")]
     pub deny: Vec<String>,
 
@@ -27,11 +27,12 @@ pub(crate) struct CheckArgs {
     #[arg(long, value_name = "CODE")]
     pub allow: Vec<String>,
 
-    /// Hold EDS and DCF files to the standard, as files of one's own, not as files of others that are only read
+    /// Check EDS and DCF files strictly against the standard, as your own files and not as files of others that are
+    /// only read
     #[arg(long)]
     pub strict: bool,
 
-    /// Take as errors what this reader refuses an EDS or DCF for, and nothing else
+    /// Report as errors only what makes this reader refuse an EDS or DCF
     #[arg(long = "for", value_enum, value_name = "READER")]
     pub readers: Vec<ReaderName>,
 
@@ -47,11 +48,11 @@ pub(crate) struct CheckArgs {
     #[arg(long)]
     pub all: bool,
 
-    /// Also what only Rust code minds: names that give one identifier, strings without a capacity
+    /// Also check what matters only to Rust code: names that become one identifier, strings without a capacity
     #[arg(long)]
     pub rust: bool,
 
-    /// What standard input is called; the name tells what it is, as it does for a file
+    /// What standard input is called; the name shows what it is, as it does for a file
     #[arg(long, value_name = "NAME", default_value = "<stdin>", hide_default_value = true)]
     pub stdin_name: String,
 
@@ -71,7 +72,7 @@ pub(crate) enum CheckFormat {
     Json,
     /// One SARIF 2.1.0 document, for code scanning services
     Sarif,
-    /// Workflow commands of GitHub Actions, which show findings beside the source
+    /// Workflow commands of GitHub Actions, which show findings next to the source
     Github,
 }
 
@@ -104,7 +105,7 @@ impl From<Format> for CheckFormat {
     }
 }
 
-/// Readers of which it is foretold what they refuse.
+/// Readers whose refusals are predicted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ReaderName {
     /// dcfchk, the checker of lely's dcf-tools

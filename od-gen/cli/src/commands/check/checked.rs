@@ -29,7 +29,7 @@ pub(super) struct Checked {
     pub shown: Diagnostics,
     /// Notes that are not wanted.
     pub hidden_notes: usize,
-    /// How many of those can be put right without anybody's decision.
+    /// How many of those can be fixed without a decision.
     pub hidden_repairs: usize,
     /// The texts that were read.
     pub sources: SourceMap,

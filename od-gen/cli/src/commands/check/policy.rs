@@ -9,7 +9,7 @@ use super::args::CheckArgs;
 /// Which findings an option is about.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Selector {
-    /// Those whose code begins so, in capitals; a whole code is the longest beginning.
+    /// Those whose code begins so, in upper case; a whole code is the longest beginning.
     Codes(String),
     /// All that are this serious.
     Serious(Severity),
@@ -26,7 +26,7 @@ enum Treatment {
 #[derive(Debug, Default)]
 pub(super) struct Policy {
     rules: Vec<(Selector, Treatment)>,
-    /// Who is to read the EDS or DCF; none: everybody.
+    /// Who is to read the EDS or DCF; none: any reader.
     readers: Readers,
 }
 

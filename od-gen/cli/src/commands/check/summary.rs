@@ -46,13 +46,13 @@ pub(super) fn of_file(checked: &Checked, files: usize) -> Option<String> {
         }
     }
     if let (1, Some(first)) = (files, explained(&checked.shown)) {
-        let _ = write!(line, "; `odgen explain {first}` tells more");
+        let _ = write!(line, "; `odgen explain {first}` says more");
     }
     line.push('\n');
     Some(line)
 }
 
-/// How many of the findings can be put right without anybody's decision.
+/// How many of the findings can be fixed without a decision.
 fn repairs(found: &Diagnostics) -> Option<String> {
     let counted = || found.iter().filter(|diagnostic| diagnostic.severity != Severity::Note);
     let (all, with_edits) = (counted().count(), counted().filter(|one| !one.edits.is_empty()).count());
@@ -66,7 +66,7 @@ fn repairs(found: &Diagnostics) -> Option<String> {
     Some(format!("`odgen fix` repairs {what}"))
 }
 
-/// The code to look up first: an error before a warning, wherever it stands.
+/// The code to look up first: an error before a warning, wherever it is.
 fn explained(found: &Diagnostics) -> Option<&'static Code> {
     let first = found.iter().min_by_key(|one| one.severity)?;
     (first.severity != Severity::Note).then_some(first.code)
@@ -128,7 +128,7 @@ impl Total {
             let most: Vec<String> = most
                 .map(|(code, files)| format!("{code} in {}", plural(*files, "file").unwrap_or_default()))
                 .collect();
-            let _ = write!(line, "; most frequent: {}; `odgen explain {first}` tells more", most.join(", "));
+            let _ = write!(line, "; most frequent: {}; `odgen explain {first}` says more", most.join(", "));
         }
         line.push('\n');
         line

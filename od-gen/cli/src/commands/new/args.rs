@@ -8,7 +8,7 @@ use crate::messages::Messages;
 
 #[derive(Debug, Args)]
 pub(crate) struct NewArgs {
-    /// Key of the device, which also names the file: small letters, digits and hyphens
+    /// Key of the device, which also names the file: lower-case letters, digits and hyphens
     pub name: String,
 
     /// What the device follows

@@ -20,7 +20,7 @@ pub(super) struct Mode {
     actual: Option<&'static str>,
     /// A line that an object of the mode may have, as an example.
     example: &'static str,
-    /// Features that drives with this mode often have beside it.
+    /// Features that drives with this mode often have in addition to it.
     beside: &'static [&'static str],
 }
 
@@ -162,7 +162,7 @@ pub(super) fn specification(key: &str, modes: &[&Mode]) -> String {
         key,
         &[
             ("<modes>", &items(features)),
-            ("<beside>", &items(beside.into_iter())),
+            ("<also>", &items(beside.into_iter())),
             (
                 "<kind>",
                 if modes.iter().all(|mode| mode.short == "vl") { "0x0001_0192" } else { "0x0002_0192" },

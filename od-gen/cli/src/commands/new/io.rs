@@ -16,7 +16,7 @@ pub(super) struct Channels {
     analogue_outputs: u16,
 }
 
-/// A module for which nobody said how many.
+/// A module without a stated number.
 const EXAMPLE: Channels = Channels { inputs: 16, outputs: 8, analogue_inputs: 4, analogue_outputs: 2 };
 
 /// Bits of the high word of 1000h.
@@ -97,13 +97,13 @@ impl Channels {
             &[
                 ("<type>", &format!("0x{:04X}_{:04X}", device_type >> 16, device_type & 0xFFFF)),
                 ("<channels>", &items(features.iter().map(String::as_str))),
-                ("<beside>", &items(beside.into_iter())),
+                ("<also>", &items(beside.into_iter())),
                 ("<pdos>", pdos.concat().trim_end()),
             ],
         )
     }
 
-    /// Features that modules often have beside their channels.
+    /// Features that modules often have in addition to their channels.
     fn beside(self) -> [(u16, &'static [&'static str]); 4] {
         [
             (self.inputs, &["digital input polarity 8-bit"]),

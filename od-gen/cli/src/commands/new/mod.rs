@@ -82,7 +82,7 @@ fn check_key(key: &str) -> Result<(), Diagnostic> {
     }
     let message = format!("found `{key}`, expected the key of a device");
     Err(Diagnostic::without_place(codes::BAD_NOTATION, message)
-        .help("a key has up to 32 small letters, digits and hyphens, such as `my-device`"))
+        .help("a key has up to 32 lower-case letters, digits and hyphens, such as `my-device`"))
 }
 
 fn device(key: &str) -> String {

@@ -20,7 +20,7 @@ use crate::exit::{ERRORS, SUCCESS};
 use crate::interrupt::Interrupt;
 use crate::report::{Report, print};
 
-/// Reads entries. What cannot be read is told, and the others are read all the same.
+/// Reads entries. What cannot be read is reported, and the others are still read.
 pub(super) fn read(args: &NodeReadArgs, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.spec, &args.node, report)?;
     let target = described.target(&args.node, None, report)?;
@@ -97,7 +97,7 @@ pub(super) fn write(args: &NodeWriteArgs, report: &Report) -> Result<u8, u8> {
     let names = SettingNames::of(target.device);
     let meant = names.read(target.id, &layer.settings);
     if diagnostics.has_errors() || meant.len() < settings.len() {
-        // What is no value cannot be sent, and needs no bus to be told.
+        // What is not a value cannot be sent, and needs no bus to be reported.
         assign_layers(target.system, target.device, target.id, &[layer], &mut diagnostics);
         report.show(&diagnostics, &sources);
         return Err(ERRORS);
@@ -218,7 +218,7 @@ fn send<B: Bus>(
             Some(bytes) => match sent(client, target, *id, &bytes, Untaken::Reported, report) {
                 Ok(()) => {
                     in_hand.wrote(*id, &bytes);
-                    // A full disk behind standard output is no reason to leave a PDO switched off.
+                    // A full disk at standard output is no reason to leave a PDO switched off.
                     code = code.max(print(&format!("{}  written\n", line(target, *id, &bytes))));
                     None
                 }

@@ -27,13 +27,16 @@ pub(crate) enum NodeCommand {
     Write(NodeWriteArgs),
     /// Write the parameters of a node, or of all nodes of a machine, into parameter files, by name and in units: all that can be read and written
     Backup(NodeBackupArgs),
-    /// Tell which values of a parameter file a node, or the nodes of a machine, have otherwise; exit code 3 when there are any
+    /// Show which values of a parameter file differ on a node or on the nodes of a machine; exit code 3 when there are
+    /// any
     Compare(NodeFileArgs),
-    /// Give a node, or the nodes of a machine, the values of a parameter file, after a question, in an order that they take, and read them back
+    /// Write the values of a parameter file to a node, or to the nodes of a machine, after a question, in an order that
+    /// they accept, and read them back
     Restore(NodeRestoreArgs),
-    /// Tell what goes over the bus, while it does: heartbeats and their loss, states, emergencies, PDOs and transfers with names and units
+    /// Print what goes over the bus as it happens: heartbeats and their loss, states, emergencies, PDOs and transfers
+    /// with names and units
     Monitor(NodeMonitorArgs),
-    /// Ask all 127 node-IDs who they are, and tell which of the specifications fits
+    /// Ask all 127 node-IDs for their identity, and show which of the specifications fits
     Scan(NodeScanArgs),
     /// Load a program into a node (1F50h), after a question: it is stopped, deleted, loaded in blocks, checked and started
     Program(NodeProgramArgs),
@@ -41,12 +44,12 @@ pub(crate) enum NodeCommand {
     Nmt(NodeNmtArgs),
     /// Make a node store its parameters (1010h)
     Store(NodeGroupArgs),
-    /// Make a node take its defaults again (1011h), from its next reset on
+    /// Make a node restore its defaults (1011h), from its next reset on
     LoadDefaults(NodeGroupArgs),
 }
 
 impl NodeCommand {
-    /// How messages are written, where that is said behind the command.
+    /// How messages are written, where that is said after the command.
     pub(crate) const fn message_format(&self) -> Option<Format> {
         match self {
             Self::Read(args) => args.node.link.messages.format,
@@ -78,11 +81,12 @@ pub(crate) struct LinkArgs {
     #[arg(long, value_name = "KBIT")]
     pub bit_rate: Option<u16>,
 
-    /// Milliseconds after which a node that says nothing is given up
+    /// Milliseconds after which a node that does not answer is given up
     #[arg(long, value_name = "MS", default_value_t = 1000)]
     pub timeout: u32,
 
-    /// So often an entry is read again when a frame was lost or broken; a write is never repeated before it is read back
+    /// How often an entry is read again when a frame was lost or broken; a write is never repeated before it is read
+    /// back
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub retries: u8,
 
@@ -173,11 +177,12 @@ pub(crate) struct NodeWriteArgs {
     #[arg(required = true, value_name = "ENTRY=VALUE")]
     pub settings: Vec<String>,
 
-    /// Locked entry that may be written all the same: factory data, which the device takes only while it is unlocked for service
+    /// Locked entry that may be written anyway: factory data, which the device takes only while it is unlocked for
+    /// service
     #[arg(long, value_name = "ENTRY")]
     pub unlock: Vec<String>,
 
-    /// Send also what fails the check; the node has the last word
+    /// Send also what fails the check; the node decides
     #[arg(long)]
     pub force: bool,
 
@@ -260,7 +265,7 @@ pub(crate) struct NodeMonitorArgs {
     #[arg(long)]
     pub ask: bool,
 
-    /// End after so many seconds [default: with Ctrl-C]
+    /// End after this many seconds [default: with Ctrl-C]
     #[arg(long = "for", value_name = "SECONDS", value_parser = duration)]
     pub seconds: Option<Duration>,
 

@@ -1,4 +1,4 @@
-//! A parameter file beside the node that it is for, and how the two differ.
+//! A parameter file compared with the node that it is for, and how the two differ.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -16,7 +16,7 @@ use crate::interrupt::Interrupt;
 use crate::report::{Report, print, shown};
 use crate::settings::{ParameterFiles, parameter_files};
 
-/// A parameter file and the node that it is laid beside.
+/// A parameter file and the node that it is compared with.
 pub(super) struct Beside<'a> {
     pub(super) target: Target<'a>,
     pub(super) file: PathBuf,
@@ -26,7 +26,8 @@ pub(super) struct Beside<'a> {
     pub(super) meant: ParameterValues,
 }
 
-/// Reads a parameter file for a node and checks it as for a DCF. What is no error depends on what the node has, and is told then.
+/// Reads a parameter file for a node and checks it as for a DCF. What is not an error depends on what the node has, and
+/// is reported then.
 pub(super) fn beside<'a>(
     sources: &SourceMap,
     file: PathBuf,
@@ -67,7 +68,7 @@ fn is_same(one: &Value, other: &Value, node: u8) -> bool {
     one == other || one.integer_for(node).is_some_and(|raw| other.integer_for(node) == Some(raw))
 }
 
-/// Tells what a node has otherwise than a file, and what it does not tell; how many of each.
+/// Reports what a node has otherwise than a file, and what it does not report; how many of each.
 pub(super) fn told_differences(
     target: Target<'_>,
     meant: &ParameterValues,

@@ -22,7 +22,7 @@ pub(crate) struct ConfirmArgs {
     #[arg(long)]
     pub yes: bool,
 
-    /// Tell what would be done, and do nothing
+    /// Show what would be done, and do nothing
     #[arg(long, conflicts_with = "yes")]
     pub dry_run: bool,
 }
@@ -94,7 +94,7 @@ fn answer(interrupt: &Interrupt) -> Option<String> {
 /// A value that is about to be written.
 pub(super) struct Change {
     pub(super) id: EntryId,
-    /// What the node has now, in words, where it tells.
+    /// What the node has now, in words, where it reports it.
     pub(super) old: Option<String>,
     pub(super) new: String,
 }

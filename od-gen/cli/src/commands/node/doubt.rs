@@ -7,7 +7,7 @@ use od_spec::model::EntryId;
 use super::Target;
 use crate::report::Report;
 
-/// What is said of a value that a node did not take, or of which nobody knows.
+/// What is said of a value that a node did not take, or of which it is not known.
 pub(super) struct Unwritten {
     pub(super) why: Box<Diagnostic>,
     pub(super) node: Presence,

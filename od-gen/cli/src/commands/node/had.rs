@@ -14,7 +14,7 @@ use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::report::Report;
 
-/// What a node has, and what it does not tell, with the reason.
+/// What a node has, and what it does not report, with the reason.
 pub(super) struct Had {
     pub(super) values: ParameterValues,
     pub(super) untold: Vec<(EntryId, String)>,
@@ -35,7 +35,8 @@ impl Had {
         meant.iter().map(change).collect()
     }
 
-    /// Says of entries that rules look at, and that the node does not tell, that they are taken to have their defaults.
+    /// Says of entries that rules look at, and that the node does not report, that they are taken to have their
+    /// defaults.
     pub(super) fn tell_taken_for_default(
         &self,
         target: Target<'_>,

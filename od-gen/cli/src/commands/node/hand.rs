@@ -104,7 +104,8 @@ impl<'i> InHand<'i> {
     }
 }
 
-/// The PDO that an object is a parameter of, by the index of its communication parameters; mappings stand 200h behind them.
+/// The PDO that an object is a parameter of, by the index of its communication parameters; mappings are 200h after
+/// them.
 pub(super) fn pdo_of(index: Index) -> Option<Index> {
     Role::of(index).is_pdo_parameter().then_some(Index(index.0 & !0x200))
 }

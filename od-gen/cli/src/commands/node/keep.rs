@@ -45,7 +45,8 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
     Ok(print(&kept_line(&args.out, written.count, target)))
 }
 
-/// Reads what a file sets, and tells where the node differs; the same for the files of a directory and the nodes of a machine.
+/// Reads what a file sets, and reports where the node differs; the same for the files of a directory and the nodes of a
+/// machine.
 pub(super) fn compare(args: &NodeFileArgs, report: &Report) -> Result<u8, u8> {
     let described = Described::read(&args.spec, &args.node, report)?;
     if let Some(machine) = machine_of(&described, args) {

@@ -131,7 +131,7 @@ impl Machine {
         }
         if code != SUCCESS {
             report.note(
-                "no file was written, as not every node tells what it has; `--skip ID` leaves a node out",
+                "no file was written, because not every node reports what it has; `--skip ID` leaves a node out",
             );
             return Err(code);
         }
@@ -186,7 +186,7 @@ impl Machine {
         Ok(all)
     }
 
-    /// Tells what became of the nodes; the exit code.
+    /// Reports what became of the nodes; the exit code.
     fn told<B: Bus>(
         &self,
         client: &mut Client<B>,

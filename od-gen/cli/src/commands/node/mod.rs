@@ -145,7 +145,7 @@ impl<'a> Target<'a> {
         format!("{place}{} (node {})", self.device.key, self.id)
     }
 
-    /// What stands before lines that are about it, where others have such lines, too.
+    /// What is printed before lines that are about it, where others have such lines, too.
     fn mark(self) -> String {
         self.position.map_or_else(String::new, |_| format!("{}: ", self.name()))
     }

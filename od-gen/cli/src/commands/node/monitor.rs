@@ -21,17 +21,18 @@ use crate::exit::SUCCESS;
 use crate::interrupt::Interrupt;
 use crate::report::{Report, not_printed};
 
-/// So long at most nobody looks whether the command is to end.
+/// The longest time until the command looks whether it is to end.
 const NAP: Duration = Duration::from_millis(100);
 
-/// What decides which identifier belongs to what, beside the parameters of PDOs: SYNC, TIME, EMCY, and how often a heartbeat comes.
+/// What decides which identifier belongs to what, in addition to the parameters of PDOs: SYNC, TIME, EMCY, and how
+/// often a heartbeat comes.
 const IDENTIFIERS: [u16; 4] = [0x1005, 0x1012, 0x1014, 0x1017];
 /// No PDO carries more.
 const MAPPED: u8 = 64;
 /// The identifiers of what nodes answer begin here.
 const SDO_ANSWERS: u16 = 0x580;
 
-/// Tells what goes over the bus until Ctrl-C, or for a time; then what was seen of each node.
+/// Prints what goes over the bus until Ctrl-C, or for a time; then what was seen of each node.
 pub(super) fn monitor(args: &NodeMonitorArgs, directory: &Path, report: &Report) -> Result<u8, u8> {
     let nodes = if args.nodes.names_nothing() {
         report.note(
@@ -66,7 +67,7 @@ pub(super) fn monitor(args: &NodeMonitorArgs, directory: &Path, report: &Report)
         let left = until.map_or(NAP, |until| until.saturating_duration_since(Instant::now()));
         match bus.receive(left.min(watching.nap())) {
             Ok(Some(frame)) => watching.hear(&frame)?,
-            // It refused a question, which nobody waits for any more.
+            // It refused a question, which is no longer waited for.
             Ok(None) | Err(BusError::Refused) => {}
             Err(error) => {
                 watching.end(report)?;
@@ -100,13 +101,13 @@ impl Watching<'_> {
         tell(&lines)
     }
 
-    /// Tells what has not come.
+    /// Reports what has not come.
     fn look(&mut self) -> Result<(), u8> {
         let lines = self.monitor.poll(self.now());
         tell(&lines)
     }
 
-    /// Tells what was seen of each node, and of which of them the answers do not count any more.
+    /// Prints what was seen of each node, and of which of them the answers do not count any more.
     fn end(&self, report: &Report) -> Result<u8, u8> {
         let summary = self.monitor.summary(self.now());
         tell(&[summary.trim_end().to_owned()])?;
@@ -153,14 +154,14 @@ struct Asking<'a> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Answer {
     Told(Vec<u8>),
-    /// It does not have it, or does not tell.
+    /// It does not have it, or does not report it.
     Untold,
     /// It says nothing at all.
     Silent,
 }
 
 impl Asking<'_> {
-    /// Reads an entry. What goes over the bus meanwhile is told.
+    /// Reads an entry. What goes over the bus meanwhile is printed.
     fn read(&mut self, watching: &mut Watching<'_>, id: EntryId) -> Result<Answer, u8> {
         let Some(entry) = self.device.entry(id).filter(|entry| entry.access.is_readable()) else {
             return Ok(Answer::Untold);
@@ -180,7 +181,7 @@ impl Asking<'_> {
             Err(error) => {
                 let node = self.node;
                 self.report
-                    .note(&format!("node {node} does not tell {id}, which is taken as specified: {error}"));
+                    .note(&format!("node {node} does not report {id}, which is taken as specified: {error}"));
                 if error.is_of_node() { Answer::Silent } else { Answer::Untold }
             }
         })
@@ -213,7 +214,7 @@ impl Bus for Overheard<'_> {
     }
 }
 
-/// Prints lines as they come, for a pipe, too. The exit code where nobody reads them any more.
+/// Prints lines as they come, for a pipe, too. The exit code where they are no longer read.
 fn tell(lines: &[String]) -> Result<(), u8> {
     if lines.is_empty() {
         return Ok(());

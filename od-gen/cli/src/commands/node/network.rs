@@ -160,7 +160,7 @@ pub(super) fn nmt(args: &NodeNmtArgs, report: &Report) -> Result<u8, u8> {
     if client.booted(node, START).map_err(|error| report.refuse(broken(&error)))? {
         return Ok(print(&format!("node {node} has started again\n")));
     }
-    let message = format!("node {node} was told to start again, and no boot-up message came within 5 s");
+    let message = format!("node {node} was commanded to start again, and no boot-up message came within 5 s");
     Err(report.refuse(
         Diagnostic::without_place(codes::ACCESS_FAILED, message).help("check node-ID, bit rate and power"),
     ))

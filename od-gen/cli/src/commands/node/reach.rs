@@ -51,7 +51,7 @@ pub(super) fn is_meant<B: Bus>(
     for remark in remarks {
         match remark {
             Remark::Untold(id) => report.note(&format!(
-                "{} does not tell {}: whether it is the one that is meant is not known",
+                "{} does not report {}: whether it is the one that is meant is not known",
                 target.name(),
                 target.words().entry(id)
             )),
@@ -99,7 +99,7 @@ fn contradiction(target: Target<'_>, one: &Contradiction) -> Diagnostic {
     let (is, help) = match one.fact {
         Fact::Device => (
             "no",
-            "check node-ID, device and specification; `odgen node scan SPEC…` tells who is on the bus, `--any-device` goes on all the same",
+            "check node-ID, device and specification; `odgen node scan SPEC…` shows which nodes are on the bus, `--any-device` goes on all the same",
         ),
         Fact::Revision => (
             "another",
@@ -164,7 +164,7 @@ pub(super) fn bus(args: &LinkArgs, report: &Report) -> Result<AnyBus, u8> {
 /// An adapter, and what is said where it cannot be used.
 struct Adapter<'a> {
     place: &'a str,
-    /// What can be done where nobody is there.
+    /// What can be done where nothing answers.
     no_one: &'static str,
     args: &'a LinkArgs,
     report: &'a Report,

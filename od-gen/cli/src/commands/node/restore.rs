@@ -142,7 +142,7 @@ fn planned<'b, 'a, B: Bus>(
     let assigned = assign_layers(target.system, &of_node, target.id, layers, &mut diagnostics);
     if on_the_bus(&diagnostics, &[]).has_errors() {
         report.note(&format!(
-            "{}nothing was written; with what the node has beside the values of the file:",
+            "{}nothing was written; with what the node has in addition to the values of the file:",
             target.mark()
         ));
         shown_errors(&diagnostics, sources, report)?;
@@ -240,8 +240,8 @@ impl HeldBack<'_> {
         self.joined.extend(involved(self.target.system, self.target.device, &BTreeSet::from([id])));
     }
 
-    /// A value beside one that did not come may break a condition, or switch on a PDO that carries something else; and what is not
-    /// whole must not be stored.
+    /// A value together with one that did not come may break a condition, or switch on a PDO that carries something
+    /// else; and what is not whole must not be stored.
     fn has(&self, id: EntryId) -> bool {
         let keeps = Role::of(id.index) == Role::StoreParameters || id.index == CONFIGURATION_DATE;
         let is_of_same_pdo =
@@ -252,11 +252,11 @@ impl HeldBack<'_> {
     }
 }
 
-/// Verify configuration (1020h): what a configuration tool leaves behind when everything is written.
+/// Verify configuration (1020h): what a configuration tool leaves when everything is written.
 const CONFIGURATION_DATE: Index = Index(0x1020);
 
-/// Carries out writes. One that is refused is told, and of the next ones those are tried that have nothing to do with it; the exit code
-/// where the node is gone.
+/// Carries out writes. One that is refused is reported, and of the next ones those are tried that have nothing to do
+/// with it; the exit code where the node is gone.
 fn written<B: Bus>(
     client: &mut Client<B>,
     target: Target<'_>,

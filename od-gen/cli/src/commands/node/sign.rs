@@ -34,7 +34,7 @@ struct Addressed {
     client: Client<AnyBus>,
     node: u8,
     name: String,
-    /// What it says of itself, where nobody has said what it is to be.
+    /// What it says of itself, where its kind was not stated.
     about: String,
 }
 
@@ -69,13 +69,13 @@ fn sign(
     let Addressed { mut client, node, name, about } = addressed;
     let id = EntryId { index: Index(index), sub: SubIndex(args.group) };
     args.confirm.ask(
-        &format!("{name} is told to {what} ({id})\n{about}"),
+        &format!("{name} is commanded to {what} ({id})\n{about}"),
         &format!("let {name} {what}"),
         &Interrupt::noted(),
         report,
     )?;
     has_started(&mut client, node, &name, report)?;
-    // What the node was told to do is waited for.
+    // What the node was commanded to do is waited for.
     let _interrupt = Interrupt::noted_with_hangup();
     client.write(node, id, &signature).map_err(|error| {
         let message = format!("{name} does not {what} ({id}): {error}");

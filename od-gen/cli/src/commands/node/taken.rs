@@ -30,7 +30,7 @@ pub(super) fn parameters_of<B: Bus>(
 ) -> Result<ParameterText, u8> {
     let had = had(client, target, kept(target.device), Some(interrupt), report)?;
     let mut node = Commissioning::of_node(target.device, target.id);
-    // Nobody has asked the adapter.
+    // The adapter was not asked.
     node.bit_rate = args.node.link.bit_rate.unwrap_or(0);
     node.values = had.values;
     node.serial_number = serial_number(client, target, report)?;

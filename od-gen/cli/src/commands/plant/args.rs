@@ -18,12 +18,12 @@ pub(crate) enum PlantCommand {
     Build(PlantBuildArgs),
     /// Check a plant without writing anything
     Check(PlantCheckArgs),
-    /// Tell what nodes are set to, and which level says so
+    /// Show what nodes are set to, and which level says so
     Show(PlantShowArgs),
 }
 
 impl PlantCommand {
-    /// How messages are written, where that is said behind the command.
+    /// How messages are written, where that is said after the command.
     pub(crate) const fn message_format(&self) -> Option<Format> {
         match self {
             Self::Build(args) => args.messages.format,
@@ -42,7 +42,7 @@ pub(crate) struct PlantBuildArgs {
     #[arg(long, short, default_value = "plant", value_name = "DIR")]
     pub out: PathBuf,
 
-    /// Remove files of nodes and machines that are no more in the plant
+    /// Remove files of nodes and machines that are no longer in the plant
     #[arg(long)]
     pub prune: bool,
 
@@ -84,7 +84,7 @@ pub(crate) struct PlantShowArgs {
     #[arg(long, value_name = "KEY")]
     pub device: Option<String>,
 
-    /// Only this entry, by name or index, also where no level says anything of it
+    /// Only this entry, by name or index, also where no level sets it
     #[arg(long, value_name = "ENTRY")]
     pub entry: Option<String>,
 

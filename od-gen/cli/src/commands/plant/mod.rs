@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn a_workbook_that_is_not_written_is_told() {
+    fn a_workbook_that_is_not_written_is_reported() {
         assert_eq!(without_workbook(&set(&[SHEET, WORKBOOK])), "");
         assert!(without_workbook(&set(&[SHEET])).starts_with("  no values.xlsx: "));
     }

@@ -32,7 +32,7 @@ pub(crate) struct ServeArgs {
     #[arg(long)]
     pub consistent: bool,
 
-    /// Tell every frame on the bus in words, on standard error
+    /// Print every frame on the bus in words, on standard error
     #[arg(long, conflicts_with = "watch")]
     pub log: bool,
 

@@ -24,7 +24,7 @@ pub(super) enum Event {
     Broken(std::io::Error),
     /// A line of a script on standard input.
     Said(String),
-    /// A key, while somebody watches.
+    /// A key, while the display is shown.
     Key(ratatui::crossterm::event::KeyEvent),
 }
 

@@ -1,6 +1,6 @@
 //! Who talks to the bus: hosts with SLCAN, each with an adapter of its own, and a CAN interface.
 //!
-//! A thread for each reads, and another one writes, so that nobody who is slow holds up the bus.
+//! A thread for each reads, and another one writes, so that a slow client does not hold up the bus.
 
 use std::io::{ErrorKind, Read, Write};
 use std::net::{Shutdown, TcpListener, TcpStream};
@@ -125,7 +125,7 @@ impl Hosts {
     }
 }
 
-/// Tells of clients that come, in a thread of its own.
+/// Reports clients that come, in a thread of its own.
 pub(super) fn accept(listener: TcpListener, events: SyncSender<Event>) {
     std::thread::spawn(move || {
         loop {
@@ -142,7 +142,7 @@ pub(super) fn accept(listener: TcpListener, events: SyncSender<Event>) {
     });
 }
 
-/// Tells the lines of a host until it goes.
+/// Reports the lines of a host until it goes.
 pub(super) fn read(number: u64, mut from: impl Read, events: &SyncSender<Event>) {
     let mut lines = Lines::default();
     let mut buffer = [0; 512];
@@ -181,7 +181,7 @@ impl Lines {
                     let Self { line, is_too_long } = std::mem::take(self);
                     whole.push((!is_too_long).then_some(line));
                 }
-                // Hosts on some systems send it behind the end of a line.
+                // Hosts on some systems send it after the end of a line.
                 b'\n' => {}
                 _ if self.line.len() >= LONGEST => self.is_too_long = true,
                 byte => self.line.push(char::from(*byte)),
@@ -190,7 +190,7 @@ impl Lines {
         whole
     }
 
-    /// Half a line is none, when who began it has gone.
+    /// Half a line is not a line when the host that began it has gone.
     #[cfg_attr(not(target_os = "linux"), expect(dead_code, reason = "there are no terminals"))]
     pub(super) fn forget(&mut self) {
         *self = Self::default();
@@ -209,7 +209,7 @@ struct Outgoing {
 struct Turn {
     /// Bytes that wait.
     waiting: AtomicUsize,
-    /// What still waits then is for nobody.
+    /// What still waits then has no receiver.
     is_over: AtomicBool,
 }
 
@@ -225,7 +225,7 @@ impl Outgoing {
         let (to, from) = channel::<(Arc<Turn>, Vec<u8>)>();
         std::thread::spawn(move || {
             for (turn, bytes) in from {
-                // One that cannot be written to has gone, and whoever reads from it says so.
+                // One that cannot be written to has gone, and the thread that reads from it reports this.
                 if !turn.is_over.load(Ordering::Relaxed) {
                     let _ = host.write_all(&bytes).and_then(|()| host.flush());
                 }
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn a_client_that_takes_nothing_holds_up_nobody_and_is_left() {
+    fn a_client_that_takes_nothing_holds_up_no_other_and_is_left() {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let mut deaf = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         let (events, _incoming) = std::sync::mpsc::sync_channel(16);
@@ -305,7 +305,7 @@ mod tests {
 
     #[test]
     fn a_terminal_that_takes_nothing_loses_frames_and_begins_anew() {
-        /// Takes nothing until somebody lets it.
+        /// Takes nothing until it is allowed to.
         struct Stuck(std::sync::mpsc::Receiver<()>, Sender<Vec<u8>>);
         impl Write for Stuck {
             fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
@@ -330,7 +330,7 @@ mod tests {
         hosts.gone(number);
         drop(let_it);
         hosts.line(number, Some("N"));
-        // The first answer was on its way; those behind it were for somebody who has gone.
+        // The first answer was on its way; those after it were for a host that has gone.
         let seen: Vec<Vec<u8>> =
             (0..2).map(|_| written.recv_timeout(Duration::from_secs(10)).unwrap()).collect();
         assert_eq!(seen, [b"V1010\r".to_vec(), b"NODGE\r".to_vec()]);

@@ -40,9 +40,10 @@ use watch::Watch;
 const NAP: Duration = Duration::from_millis(20);
 /// Shorter than this it does not sleep either: a transfer of which the client's part is awaited has no time of its own.
 const SHORTEST: Duration = Duration::from_millis(1);
-/// So many events wait at most; who sends faster has to wait.
+/// The most events that wait; a faster sender has to wait.
 const WAITING: usize = 1024;
-/// So often the nodes are asked what they have to say before somebody else is heard: nodes that answer each other never come to an end.
+/// So often the nodes are asked what they have to say before anything else is heard: nodes that answer each other never
+/// come to an end.
 const ROUNDS: usize = 16;
 
 pub(crate) fn run(args: &ServeArgs, directory: &Path, report: &Report) -> u8 {
@@ -126,8 +127,8 @@ fn can_watch(args: &ServeArgs, report: &Report) -> Result<(), u8> {
     };
     if !std::io::stdout().is_terminal() || !std::io::stdin().is_terminal() {
         return refuse(
-            "`--watch` needs a terminal, and standard input or output is none",
-            "serve with `--log` in its place, which tells every frame on standard error",
+            "`--watch` needs a terminal, and standard input or output is not one",
+            "serve with `--log` in its place, which prints every frame on standard error",
         );
     }
     if args.script.as_deref() == Some(Path::new("-")) {
@@ -161,7 +162,7 @@ impl Place {
                 let place = listener.local_addr().map_err(cannot)?;
                 if !place.ip().is_loopback() {
                     report.note(&format!(
-                        "other machines reach {place}, too: whoever does can write to the nodes; 127.0.0.1 is for this machine alone"
+                        "other machines reach {place}, too: they can write to the nodes; 127.0.0.1 is for this machine alone"
                     ));
                 }
                 hosts::accept(listener, events.clone());
@@ -258,7 +259,7 @@ fn devices(nodes: &BusNodes, report: &Report) -> Result<Vec<(u8, runtime::Device
     Ok(devices)
 }
 
-/// Tells the lines of standard input, in a thread of its own.
+/// Reports the lines of standard input, in a thread of its own.
 fn listen(events: SyncSender<Event>) {
     std::thread::spawn(move || {
         let mut input = std::io::stdin().lock();
@@ -331,7 +332,7 @@ impl Loop<'_, '_> {
                     drop(self.watch.take());
                     return self.report.refuse(
                         Diagnostic::without_place(codes::NO_CONNECTION, message)
-                            .help("`ip link` tells its state"),
+                            .help("`ip link` shows its state"),
                     );
                 }
                 Ok(Event::Key(key)) => {
@@ -358,7 +359,7 @@ impl Loop<'_, '_> {
         false
     }
 
-    /// Takes what somebody has put on the bus.
+    /// Takes what another program has put on the bus.
     fn take(&mut self, what: &What, sender: Sender) {
         match what {
             What::Frame(CanFrame::Standard(frame)) => {
@@ -387,7 +388,7 @@ impl Loop<'_, '_> {
         self.report.note(text);
     }
 
-    /// Shows what was on the bus; the first frame is that of the sender, who does not hear it.
+    /// Shows what was on the bus; the first frame is that of the sender, which does not hear it.
     fn show(&mut self, frames: &[Frame], sender: Sender) {
         let milliseconds = self.now() / 1000;
         for (at, frame) in frames.iter().enumerate() {

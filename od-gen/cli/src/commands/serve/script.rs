@@ -113,7 +113,7 @@ impl<'a> Script<'a> {
     pub(super) fn say(&mut self, line: &str, report: &Report) {
         let Input::Said(before) = &mut self.input else { return };
         let mut sources = SourceMap::new();
-        // Nobody keeps the lines before this one: they stand empty, so that it has its number.
+        // The lines before this one are not kept: they are empty, so that it has its number.
         let file = sources.add("<stdin>", "\n".repeat(*before) + line);
         let place = sources.whole(file).part(*before, *before + line.len());
         *before += 1;
@@ -249,7 +249,7 @@ fn course(
         let message = format!("found {}, expected an entry and two values", quoted(values.text));
         return Err(refusal(codes::BAD_NOTATION, values, message, COURSES));
     };
-    // Each value stands where it stands: the first one behind its entry, the second one at the end.
+    // Each value is where it is written: the first one after its entry, the second one at the end.
     let first = Spanned::new(format!("{name}={from}"), values.place.part(0, name.len() + 1 + from.len()));
     let second = format!("{name}={to}");
     let start = values.text.len().saturating_sub(second.len());
@@ -341,7 +341,7 @@ struct Part<'a> {
     place: Span,
 }
 
-/// A part without the blanks around it.
+/// A part without the spaces around it.
 fn trimmed(part: Part<'_>) -> Part<'_> {
     let text = part.text.trim_start();
     let start = part.text.len() - text.len();
@@ -349,7 +349,7 @@ fn trimmed(part: Part<'_>) -> Part<'_> {
     Part { text, place: part.place.part(start, start + text.len()) }
 }
 
-/// The first word, and what is behind it.
+/// The first word, and what follows it.
 fn word(part: Part<'_>) -> (Part<'_>, Part<'_>) {
     let part = trimmed(part);
     let end = part.text.find(char::is_whitespace).unwrap_or(part.text.len());

@@ -14,9 +14,9 @@ use rustix::termios::{OptionalActions, QueueSelector, tcflush, tcgetattr, tcseta
 use super::event::Event;
 use super::hosts::Lines;
 
-/// Where terminals are; a link to one is all that an earlier `odgen serve` leaves behind.
+/// Where terminals are; a link to one is all that an earlier `odgen serve` leaves.
 const TERMINALS: &str = "/dev/pts/";
-/// So often somebody looks whether a host has come.
+/// How often it is checked whether a host has come.
 const NAP: Duration = Duration::from_millis(20);
 
 /// A terminal, which is there for as long as this lives.
@@ -35,7 +35,7 @@ impl Terminal {
         grantpt(&master)?;
         unlockpt(&master)?;
         let path = PathBuf::from(ptsname(&master, Vec::new())?.to_string_lossy().into_owned());
-        // Hosts that do not set it up find bytes as they are. Opened once and closed, it tells whether somebody is there.
+        // Hosts that do not set it up find bytes as they are. Opened once and closed, it shows whether a host is there.
         let slave = ioctl_tiocgptpeer(&master, flags)?;
         let mut settings = tcgetattr(&slave)?;
         settings.make_raw();
@@ -60,7 +60,7 @@ impl Terminal {
         self.master.try_clone()
     }
 
-    /// Tells the lines of hosts, and that one has gone, in a thread of its own.
+    /// Reports the lines of hosts, and that one has gone, in a thread of its own.
     pub(super) fn listen(&self, number: u64, events: SyncSender<Event>) -> io::Result<()> {
         let master = self.master.try_clone()?;
         std::thread::spawn(move || listen(master, number, &events));
@@ -130,7 +130,7 @@ fn waiting(master: &File) -> io::Result<bool> {
     Ok(events_of(master, NAP)?.contains(PollFlags::IN))
 }
 
-/// Whether nobody has it open.
+/// Whether no host has it open.
 fn is_left(master: &File) -> bool {
     events_of(master, Duration::ZERO)
         .is_ok_and(|events| events.contains(PollFlags::HUP) && !events.contains(PollFlags::IN))

@@ -16,9 +16,9 @@ use od_spec::model::{Fact, System};
 use crate::shipped::PITCH;
 use crate::{Case, PITCH_SYSTEM, difference, system};
 
-/// What is told otherwise: the number of elements by the elements that came and went, remote frames by the COB-ID that holds
-/// the flag. Strings with a capacity are not in the pitch control system; see the lamp. Nodes are in DCF files; see the
-/// command. Modules and what a file says in its own words only files have; see `eds`.
+/// What is reported otherwise: the number of elements by the elements that came and went, remote frames by the COB-ID
+/// that holds the flag. Strings with a capacity are not in the pitch control system; see the lamp. Nodes are in DCF
+/// files; see the command. Modules and what a file says in its own words only files have; see `eds`.
 const TOLD_OTHERWISE: [Fact; 6] =
     [Fact::Count, Fact::RemoteFrames, Fact::Capacity, Fact::Modules, Fact::Further, Fact::Node];
 
@@ -82,7 +82,7 @@ fn the_device_as_a_whole() {
 }
 
 #[test]
-fn what_is_beside_the_objects() {
+fn what_is_in_addition_to_the_objects() {
     check(&DEVICES, &DEVICES_SYSTEM, relations::CASES);
 }
 

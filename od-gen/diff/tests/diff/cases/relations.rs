@@ -64,7 +64,7 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
-        name: "the same condition with other blanks",
+        name: "the same condition with other spaces",
         at: "  shutdown after ride-through:",
         find: "0x30E0 < 0x30E1",
         replace: "0x30E0<0x30E1",
@@ -142,14 +142,14 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
-        name: "an error is told as another kind, too",
+        name: "an error is reported as another kind, too",
         at: "errors:",
         find: "  0x3120: {name: Grid under voltage,",
         replace: "  0x3120: {register: [voltage, manufacturer], name: Grid under voltage,",
         expected: &["pmm: ~ error 3120h Grid under voltage: register: 0x05 -> 0x85 [plc]"],
     },
     Case {
-        name: "an error is told as the kind of its class",
+        name: "an error is reported as the kind of its class",
         at: "errors:",
         find: "  0x3120: {name: Grid under voltage,",
         replace: "  0x3120: {register: voltage, name: Grid under voltage,",

@@ -43,7 +43,7 @@ pub(crate) const CASES: &[Case] = &[
         expected: &["pmm: ~ 30E3h selftest time: min: 60 min -> 30 min [addition]"],
     },
     Case {
-        name: "a limit where there was none",
+        name: "a limit where there was no limit",
         at: "  0x5681:",
         find: "    devices: pmc\n",
         replace: "    devices: pmc\n    max: 50.00 °/s\n",
@@ -198,7 +198,7 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
-        name: "the same write condition with other blanks",
+        name: "the same write condition with other spaces",
         at: "  0x606A:",
         find: "bit(0x6041, 2) == 0",
         replace: "bit(0x6041,2)==0",

@@ -1,7 +1,7 @@
-//! The keys under which an entry may stand: by index, in every notation that the compiler reads.
+//! The keys under which an entry may be: by index, in every notation that the compiler reads.
 //!
 //! An editor does not see keys as text, as the compiler does: `0x2000` is the key `8192`, and `6510.10` the key `6510.1`. A text
-//! that may stand for several things so is right where one of them is.
+//! that may mean several things is right where one of them is.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -154,7 +154,7 @@ fn integers(entry: &Entry) -> Vec<Json> {
     ways
 }
 
-/// A regular expression for what may stand behind a number.
+/// A regular expression for what may follow a number.
 fn symbols(unit: Option<&Unit>, times: &str) -> String {
     let Some(unit) = unit else { return String::new() };
     let mut symbols = vec![escaped(&unit.symbol)];

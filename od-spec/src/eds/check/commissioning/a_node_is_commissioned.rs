@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "a DCF without a node",
-    explanation: "A DCF is the configuration of one node: `[DeviceComissioning]` says its node-ID, name and bit rate. Without, the \
-        file is an EDS with another name: `$NODEID` in its formulas stands for nothing, and tools ask or take any \
-        number.",
+    explanation: "A DCF is the configuration of one node: `[DeviceComissioning]` says its node-ID, name and bit rate. \
+        Without it, the file is an EDS with another name: `$NODEID` in its formulas has no value, and tools ask or \
+        take any number.",
     clause: Some("CiA 306 5.3"),
     example: Some(Example::dcf(
         "; without [DeviceComissioning]",

@@ -14,8 +14,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a bit rate that the device does not support",
-    explanation: "`[DeviceInfo]` says which bit rates the device has, and the one of the node is not among them. Either the device \
-        has it, then its key belongs to 1, or the node will not be heard.",
+    explanation: "`[DeviceInfo]` says which bit rates the device has, and the one of the node is not among them. Either the device has it, and its key has to be 1, or the node will not be heard.",
     clause: Some("CiA 306 5.3"),
     example: Some(Example::dcf(
         "[DeviceComissioning]\nNodeID=1\nBaudrate=500",

@@ -39,9 +39,9 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         ] {
             let Some(file) = part.value(key) else { continue };
             let message = if !is_domain {
-                format!("`{key}` stands at an entry that is no DOMAIN")
+                format!("`{key}` is at an entry that is not a DOMAIN")
             } else if access.is_some_and(|access| !can(access)) {
-                format!("`{key}` stands at an entry that {does}")
+                format!("`{key}` is at an entry that {does}")
             } else {
                 continue;
             };

@@ -12,9 +12,9 @@ const CODE: &Code = &Code {
     id: "EDS703",
     severity: Severity::Error,
     foreign: Severity::Error,
-    title: "a node-ID that is none",
+    title: "not a valid node-ID",
     explanation: "Node-IDs are 1 to 127. Every formula with `$NODEID` depends on it, and so does the identifier of every message \
-        of the node. 255 stands for a node that waits to get one.",
+        of the node. 255 means a node that waits to get one.",
     clause: Some("CiA 306 5.3"),
     example: Some(Example::dcf(
         "[DeviceComissioning]\nNodeID=128\nBaudrate=125",

@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Note,
     title: "two serial numbers of one node",
     explanation: "`LSS_SerialNumber` is the serial number by which the node is found before it has a node-ID; object 1018h \
-        sub-index 4 is the one that the device tells. Where they differ, the node is not found.",
+        sub-index 4 is the one that the device reports. Where they differ, the node is not found.",
     clause: Some("CiA 306 5.3"),
     example: Some(Example::dcf(
         "[1018]\nParameterName=Identity\nObjectType=0x9\nSubNumber=2\n\n[1018sub0]\nParameterName=highest\nDataType=0x0005\nAccessType=const\nDefaultValue=4\n\n[1018sub4]\nParameterName=Serial number\nDataType=0x0007\nAccessType=ro\nParameterValue=0x11\n\n[DeviceComissioning]\nNodeID=1\nBaudrate=125\nLSS_SerialNumber=0x10",
@@ -35,7 +35,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         return;
     };
     let (Some(one), Some(other)) = (lenient_integer(node.value), lenient_integer(told.value)) else { return };
-    // 0 stands for one that is not known.
+    // 0 means that it is not known.
     if one != other && one != 0 && other != 0 {
         let message = format!("the serial number of the node is {one:#X}, that of its identity {other:#X}");
         diagnostics.push(

@@ -13,9 +13,7 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Note,
     title: "a date or time in another notation",
-    explanation: "Dates are `mm-dd-yyyy`, times `hh:mmAM` or `hh:mmPM`, with two digits each. In another order nobody can tell \
-        02-03 from 03-02. What cannot be misunderstood, a year in front, the name of a month or a day above 12, is put \
-        right by `odgen fix`.",
+    explanation: "Dates are `mm-dd-yyyy`, times `hh:mmAM` or `hh:mmPM`, with two digits each. In another order, 02-03 cannot be distinguished from 03-02. What cannot be misunderstood, such as a year in front, the name of a month or a day above 12, is fixed by `odgen fix`.",
     clause: Some("CiA 306 4.4"),
     example: Some(Example::eds(
         "[FileInfo]\nCreationDate=2020-01-31\n; ...",
@@ -48,7 +46,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
 
 fn mended(mut diagnostic: Diagnostic, text: Option<String>) -> Diagnostic {
     let Some(text) = text else {
-        return diagnostic.help("write it as the standard has it: two digits each, month first");
+        return diagnostic.help("write it as in the standard: two digits each, month first");
     };
     let span = diagnostic.labels.first().map(|label| label.span);
     let help = format!("write `{text}`; `odgen fix` does");

@@ -14,9 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "a device without maker, product or number",
-    explanation: "Vendor number, product number and revision number are what a PLC compares with object 1018h of the device on the \
-        bus; names and order code are what people choose it by. Without the numbers every device passes for this one, or \
-        none. An empty key counts as missing, and python-canopen stops at an empty number.",
+    explanation: "Vendor number, product number and revision number are what a PLC compares with object 1018h of the \
+        device on the bus; names and order code are what users choose it by. Without the numbers every device is taken \
+        as this one, or none. An empty key counts as missing, and python-canopen stops at an empty number.",
     clause: Some("CiA 306 4.5"),
     example: Some(Example::eds("[DeviceInfo]\nVendorNumber=\n; ...", "[DeviceInfo]\nVendorNumber=1\n; ...")),
 };

@@ -14,9 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a device that does not say what it can",
-    explanation: "`[DeviceInfo]` says with a key each whether the device has a bit rate or a service, and how many PDOs. What is \
-        missing counts as no, or as 0; readers agree about that, so it is only a matter of form. A device that can what \
-        is missing has to say so.",
+    explanation: "`[DeviceInfo]` has a key for each bit rate and service that says whether the device has it, and for \
+        the number of PDOs. What is missing counts as no, or as 0; readers agree about that, so it is only a matter of \
+        form. A device that has what is missing has to say so.",
     clause: Some("CiA 306 4.5"),
     example: Some(Example::eds(
         "[DeviceInfo]\nVendorName=Example\nVendorNumber=1\nProductName=Example\nProductNumber=1\nRevisionNumber=1\nOrderCode=A1\nBaudRate_125=1",

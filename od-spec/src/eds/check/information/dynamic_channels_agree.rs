@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Note,
     title: "dynamic channels that are not described, or not there",
     explanation: "`DynamicChannelsSupported` other than 0 says that a PLC can create network variables in the device, and \
-        `[DynamicChannels]` tells where. One without the other leaves the tool of the PLC without what it needs. What is \
+        `[DynamicChannels]` states where. One without the other leaves the tool of the PLC without what it needs. What is \
         created in this way is not described as an object.",
     clause: Some("CiA 306 4.5 and 4.6.3.4.3"),
     example: Some(Example::eds(

@@ -17,7 +17,7 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "an object where a PLC creates its own",
     explanation: "A segment of `[DynamicChannels]` is a range of indices that is empty until the program of a PLC creates network \
-        variables in it. An object that the file describes there is not in the device at first, or stands in the way of what \
+        variables in it. An object that the file describes there is not in the device at first, or is in the way of what \
         is created. Remove the object, or correct the range.",
     clause: Some("CiA 306 4.6.3.4.3"),
     example: Some(Example::eds(
@@ -34,7 +34,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         for (index, object) in view.objects.range(range) {
             let Some(part) = object.object.as_ref().or_else(|| object.subs.values().next()) else { continue };
             found.add(part.place(), [], || {
-                let message = format!("{index} is described, but lies in a segment of `[DynamicChannels]`");
+                let message = format!("{index} is described, but is in a segment of `[DynamicChannels]`");
                 Diagnostic::new(CODE, part.place(), message).help(
                     "remove the object, which is created at run time, or correct the range of the segment",
                 )
@@ -44,7 +44,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     found.finish("objects", diagnostics);
 }
 
-/// The indices of the segments, `Range1=0xA080-0xA0BF` or a single one. Index 0 is none: it stands for no segment.
+/// The indices of the segments, `Range1=0xA080-0xA0BF` or a single one. Index 0 is not a segment.
 fn segments(part: &Part<'_>) -> impl Iterator<Item = RangeInclusive<Index>> {
     let is_range = |key: &str| {
         let digits = key.get(.."Range".len()).filter(|front| front.eq_ignore_ascii_case("Range"));

@@ -14,9 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "dummies that are not mentioned",
-    explanation: "A data type that `[DummyUsage]` does not mention is no dummy, and the standard is satisfied. python-canopen is \
-        not: it asks for all seven, `Dummy0001` to `Dummy0007`, and stops at the first that is missing. Add the others \
-        with the value 0.",
+    explanation: "A data type that `[DummyUsage]` does not mention is not a dummy, which is right by the standard. \
+        python-canopen asks for all seven, `Dummy0001` to `Dummy0007`, and stops at the first that is missing. Add the \
+        others with the value 0.",
     clause: Some("CiA 306 4.6.2"),
     example: Some(Example::eds(
         "[DummyUsage]\nDummy0005=1",

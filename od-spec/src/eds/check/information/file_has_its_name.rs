@@ -13,8 +13,8 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a file with another name",
-    explanation: "`FileName` is the name of the file itself. Where the two differ, somebody has renamed or copied the file, and \
-        nobody knows which of two files is meant. A path of the author's computer tells nobody anything.",
+    explanation: "`FileName` is the name of the file itself. Where the two differ, the file was renamed or copied, and \
+        it is not clear which of two files is meant. A path of the author's computer means nothing to others.",
     clause: Some("CiA 306 4.4"),
     example: Some(Example::eds(
         "[FileInfo]\nFileName=C:\\EDS\\example.eds\n; ...",

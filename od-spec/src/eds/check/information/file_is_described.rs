@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Note,
     title: "a file without name, version, date or author",
-    explanation: "`[FileInfo]` says how the file is called, which version and revision it has, and who made and changed it when; a \
-        DCF also names the EDS it was made from. People who hold two versions of a file in their hands have nothing else \
-        to tell them apart. Fill in what is missing; an empty key counts as missing.",
+    explanation: "`[FileInfo]` says what the file is called, which version and revision it has, and who made and \
+        changed it, and when; a DCF also names the EDS it was made from. Nothing else distinguishes two versions of a \
+        file. Fill in what is missing; an empty key counts as missing.",
     clause: Some("CiA 306 4.4 and 5.2"),
     example: Some(Example::eds(
         "[FileInfo]\nFileName=example.eds\nFileVersion=1\nFileRevision=0\nEDSVersion=4.0\nDescription=Example\nCreationTime=09:00AM\nCreationDate=01-31-2020\nCreatedBy=Example\nModificationTime=09:00AM\nModificationDate=01-31-2020",

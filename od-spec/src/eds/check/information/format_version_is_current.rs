@@ -11,10 +11,10 @@ const CODE: &Code = &Code {
     id: "EDS209",
     severity: Severity::Error,
     foreign: Severity::Note,
-    title: "a version of the format that is none, or an old one",
-    explanation: "`EDSVersion` says which version of the format the file follows: `4.0`, three characters. Without the key it \
-        counts as 3.0, which had other keys. Makers write `4`, `404` or `4.04` and mean 4.0; readers that act on the \
-        version take those for something else.",
+    title: "an unknown or old version of the format",
+    explanation: "`EDSVersion` says which version of the format the file follows: `4.0`, three characters. Without the \
+        key it counts as 3.0, which had other keys. Makers write `4`, `404` or `4.04` and mean 4.0; readers that act \
+        on the version understand those as another version.",
     clause: Some("CiA 306 4.4"),
     example: Some(Example::eds("[FileInfo]\nEDSVersion=404\n; ...", "[FileInfo]\nEDSVersion=4.0\n; ...")),
 };

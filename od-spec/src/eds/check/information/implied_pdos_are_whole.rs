@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "PDOs without identifier or transmission type",
-    explanation: "`CompactPDO` says, a bit for each, which sub-indices the communication parameters have that the file does not \
-        describe. Sub-indices 1 and 2, bits 0 and 1, are mandatory, and there are six: the value is `0x3` to `0x3F`. It \
-        makes no sense where no PDO is left to imply.",
+    explanation: "`CompactPDO` says, with a bit for each, which sub-indices the communication parameters have that the \
+        file does not describe. Sub-indices 1 and 2, bits 0 and 1, are mandatory, and there are six: the value is \
+        `0x3` to `0x3F`. It makes no sense where no PDO is left to imply.",
     clause: Some("CiA 306 4.6.3.4.1"),
     example: Some(Example::eds(
         "[DeviceInfo]\nNrOfTXPDO=1\nCompactPDO=0x2\n; ...",

@@ -12,9 +12,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "no section about file or device",
-    explanation: "`[FileInfo]` says which version of the file this is, `[DeviceInfo]` whose device it is and what it can. PLC \
-        tools show them and choose files by them; python-canopen and lely's tools expect the device's. Nobody but the \
-        maker can say what belongs there.",
+    explanation: "`[FileInfo]` says which version of the file this is, `[DeviceInfo]` whose device it is and what it \
+        can do. PLC tools show them and choose files by them; python-canopen and lely's tools expect the device's. \
+        Only the maker can say what belongs there.",
     clause: Some("CiA 306 4.4 and 4.5"),
     example: Some(Example::eds(
         "; without [FileInfo]",

@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a number about the device that cannot be read",
-    explanation: "Vendor number, product number and revision number have 32 bits, bit rates and services are 0 or 1, the \
-        granularity is 0 to 64, and CANopen has room for 512 PDOs in each direction. Text or a larger number is no fact \
-        that a reader could take: python-canopen stops, lely's dcfchk refuses the file.",
+    explanation: "Vendor number, product number and revision number have 32 bits, bit rates and services are 0 or 1, \
+        the granularity is 0 to 64, and CANopen has room for 512 PDOs in each direction. Text or a larger number \
+        cannot be used by a reader: python-canopen stops, lely's dcfchk refuses the file.",
     clause: Some("CiA 306 4.5"),
     example: Some(Example::eds(
         "[DeviceInfo]\nProductNumber=e-RIO 8\n; ...",

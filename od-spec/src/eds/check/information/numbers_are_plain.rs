@@ -14,9 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a number about the device in another notation",
-    explanation: "Numbers are decimal or, with `0x`, hexadecimal. A zero in front makes a decimal number an octal one: `010` is 8 \
-        for those who follow the standard, 10 for some, and python-canopen stops at `001`. Signs, points, quotation \
-        marks and suffixes such as `UL` are no part of a number.",
+    explanation: "Numbers are decimal or, with `0x`, hexadecimal. A leading zero makes a decimal number an octal one: \
+        `010` is 8 for those who follow the standard, 10 for some, and python-canopen stops at `001`. Signs, points, \
+        quotation marks and suffixes such as `UL` are not part of a number.",
     clause: Some("CiA 306 4.3"),
     example: Some(Example::eds(
         "[DeviceInfo]\nVendorNumber=010\n; ...",

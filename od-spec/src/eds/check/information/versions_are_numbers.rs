@@ -12,7 +12,7 @@ const CODE: &Code = &Code {
     id: "EDS208",
     severity: Severity::Error,
     foreign: Severity::Note,
-    title: "a file version that is no number",
+    title: "a file version that is not a number",
     explanation: "`FileVersion` and `FileRevision` are two numbers of 0 to 255. Texts such as `1.0`, `v1` or `-` are shown by most \
         tools and understood by none; CANopenNode's editor has refused such files. Write version 1.2 as `FileVersion=1` \
         and `FileRevision=2`.",

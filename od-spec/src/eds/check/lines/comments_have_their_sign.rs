@@ -13,8 +13,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a comment with another sign",
-    explanation: "A comment is a line whose first character is `;`. `#` is a comment for a few readers only; others take the line \
-        for a key or for nothing that can be read, and stop.",
+    explanation: "A comment is a line whose first character is `;`. `#` is a comment for a few readers only; others take the line as a key or cannot read it, and stop.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds(
         "# nothing to say\n[Comments]\nLines=0",
@@ -36,7 +35,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             let message = if is_hash {
                 "the comment begins with `#`, expected `;`"
             } else {
-                "blanks stand in front of the comment"
+                "there are spaces before the comment"
             };
             Diagnostic::new(CODE, place.part(at, text.len()), message)
                 .help("begin the line with `;`; `odgen fix` does")

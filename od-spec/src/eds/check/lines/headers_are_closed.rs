@@ -1,4 +1,4 @@
-//! The name of a section stands between two brackets.
+//! The name of a section is between two brackets.
 
 use super::super::edits;
 use super::super::rule::FormatRule;
@@ -14,9 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a section name without its bracket",
-    explanation: "The line that begins a section has a bracket on both sides of the name. Where one is missing, readers stop, or \
-        they take the line for nothing and the keys below it for keys of the section above. It is read as the section \
-        that its name means.",
+    explanation: "The line that begins a section has a bracket on both sides of the name. Where one is missing, \
+        readers stop, or they ignore the line and take the keys below it as keys of the section above. It is read as \
+        the section that its name means.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("[Comments\nLines=0", "[Comments]\nLines=0")),
 };

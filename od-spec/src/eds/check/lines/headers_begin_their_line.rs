@@ -12,9 +12,9 @@ const CODE: &Code = &Code {
     id: "EDS106",
     severity: Severity::Error,
     foreign: Severity::Warning,
-    title: "blanks in front of a section name",
-    explanation: "The bracket that opens a section's name is the first character of its line. Python's configparser, which \
-        python-canopen and lely's tools use, can take an indented line for the continuation of the value above.",
+    title: "spaces before a section name",
+    explanation: "The bracket that opens a section's name is the first character of its line. Python's configparser, \
+        which python-canopen and lely's tools use, can take an indented line as the continuation of the value above.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("  [Comments]\nLines=0", "[Comments]\nLines=0")),
 };
@@ -32,7 +32,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             Diagnostic::new(
                 CODE,
                 place.part(bracket, text.len()),
-                "blanks stand in front of the section's name",
+                "there are spaces before the section's name",
             )
             .help("begin the line with the bracket; `odgen fix` does")
         });

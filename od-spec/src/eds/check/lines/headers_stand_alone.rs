@@ -12,9 +12,8 @@ const CODE: &Code = &Code {
     id: "EDS107",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "text behind a section name",
-    explanation: "Nothing stands behind the bracket that closes a section's name; a comment is a line of its own. Some readers do \
-        not see the section then and take its keys for keys of the one above.",
+    title: "text after a section name",
+    explanation: "Nothing follows the bracket that closes a section's name; a comment is a line of its own. Some readers then do not see the section and take its keys as keys of the one above.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds(
         "[Comments] nothing to say\nLines=0",
@@ -35,7 +34,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                 CODE,
                 place,
                 format!(
-                    "found `{}` behind the section's name, expected the end of the line",
+                    "found `{}` after the section's name, expected the end of the line",
                     shorten(text[end..].trim())
                 ),
             )

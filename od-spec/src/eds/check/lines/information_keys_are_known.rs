@@ -13,9 +13,10 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Note,
     title: "an unknown key about file or device",
-    explanation: "The standard has no key of this name in a section about the file, the device, a list or the node. Most readers \
-        pass over it; lely's dcfchk refuses the file. Where the name is a misspelling, what the standard's key would say \
-        is missing. Bit rates that CiA 301 does not have, such as `BaudRate_100`, are unknown keys, too.",
+    explanation: "The standard has no key of this name in a section about the file, the device, a list or the node. \
+        Most readers ignore it; lely's dcfchk refuses the file. Where the name is a misspelling, what the standard's \
+        key would say is missing. Bit rates that CiA 301 does not have, such as `BaudRate_100`, are unknown keys, \
+        too.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("[Comments]\nLines=0\nAuthor=me", "; Author: me\n[Comments]\nLines=0")),
 };

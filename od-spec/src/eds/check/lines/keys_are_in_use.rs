@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a key of EDS version 3",
-    explanation: "`ProductVersion`, `ProductRevision`, `LMT_ManufacturerName`, `LMT_ProductName`, `ExtendedBootUpMaster` and \
-        `ExtendedBootUpSlave` belong to files of version 3; today they are reserved. Nobody reads them; take them out, \
-        and say what is still true with today's keys.",
+    explanation: "`ProductVersion`, `ProductRevision`, `LMT_ManufacturerName`, `LMT_ProductName`, \
+        `ExtendedBootUpMaster` and `ExtendedBootUpSlave` belong to files of version 3; today they are reserved. No \
+        tool reads them; remove them, and say what is still true with today's keys.",
     clause: Some("CiA 306 4.5"),
     example: Some(Example::eds("[DeviceInfo]\nProductVersion=1\n; ...", "[DeviceInfo]\n; ...")),
 };

@@ -14,8 +14,8 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a key of other characters",
-    explanation: "A key consists of letters and digits; the standard itself uses `_` as well. `Supported Objects` with a blank is \
-        no key for anybody: editors of CANopen and PLC tools refuse files with it or find no objects.",
+    explanation: "A key consists of letters and digits; the standard itself uses `_` as well. `Supported Objects` with a space is \
+        not a key for any program: editors of CANopen and PLC tools refuse files with it or find no objects.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds(
         "[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nScale-Factor=10",
@@ -27,7 +27,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
     for (topic, part) in view.topics() {
         let keys = keys::of(topic);
-        // How often each key stands there, without blanks; only for the few sections that have one with blanks.
+        // How often each key is there, without spaces; only for the few sections that have one with spaces.
         let mut counts: Option<BTreeMap<String, usize>> = None;
         for entry in part.entries().filter(|entry| !is_word(entry.key.value)) {
             let joined: String = entry.key.value.split_whitespace().collect();

@@ -1,4 +1,4 @@
-//! Every key of a section stands once.
+//! Every key of a section is written once.
 
 use super::super::edits;
 use super::super::rule::FormatRule;
@@ -13,10 +13,10 @@ const CODE: &Code = &Code {
     id: "EDS111",
     severity: Severity::Error,
     foreign: Severity::Error,
-    title: "a key that stands twice",
-    explanation: "Readers disagree about a key that stands twice in its section: Python's configparser refuses the file, most \
-        others take the last value. Keys are compared in any capitals. In a list of objects one of the two objects is \
-        lost, so the entries are numbered anew; elsewhere decide which value is right.",
+    title: "a key that is written twice",
+    explanation: "Readers disagree about a key that is written twice in its section: Python's configparser refuses the \
+        file, most others take the last value. Keys are compared without regard to case. In a list of objects one of \
+        the two objects is lost, so the entries are renumbered; elsewhere decide which value is right.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("[Comments]\nLines=0\nLines=0", "[Comments]\nLines=0")),
 };
@@ -55,11 +55,11 @@ fn compare(
         }
         let is_equal = before.value == entry.value;
         *are_equal &= is_equal;
-        let message = format!("`{}` stands twice in `{}`", shorten(entry.key.value), shorten(section.name()));
+        let message = format!("`{}` is written twice in `{}`", shorten(entry.key.value), shorten(section.name()));
         let mut diagnostic = Diagnostic::new(CODE, entry.key.span, message)
             .label("again here")
             .with(before.key.span, "first here");
-        // Readers take the last: behind another value, an equal one is not superfluous.
+        // Readers take the last: after another value, an equal one is not superfluous.
         if *are_equal {
             diagnostic = diagnostic.help("remove one of the two, they say the same; `odgen fix` does");
             diagnostic.edits.push(edits::remove(view, entry.line));

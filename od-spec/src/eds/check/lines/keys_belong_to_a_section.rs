@@ -1,4 +1,4 @@
-//! Every key stands in a section.
+//! Every key is in a section.
 
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Repeated, Severity, shorten};
@@ -11,8 +11,8 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a key before the first section",
-    explanation: "A key belongs to the section above it. In front of the first section it belongs to none: Python's configparser \
-        refuses the file, other readers drop the key. Move it to its section.",
+    explanation: "A key belongs to the section above it. Before the first section it belongs to none: Python's \
+        configparser refuses the file, other readers drop the key. Move it to its section.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("Lines=0\n[Comments]\nLines=0", "[Comments]\nLines=0")),
 };
@@ -24,7 +24,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             Diagnostic::new(
                 CODE,
                 entry.key.span,
-                format!("`{}` stands before the first section", shorten(entry.key.value)),
+                format!("`{}` is before the first section", shorten(entry.key.value)),
             )
             .help("move it into its section")
         });

@@ -1,4 +1,4 @@
-//! Keys have the standard's capitals.
+//! Keys have the standard's case.
 
 use std::collections::BTreeMap;
 
@@ -13,8 +13,8 @@ const CODE: &Code = &Code {
     id: "EDS122",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "a key in other capitals",
-    explanation: "Keys mean the same in any capitals. But python-canopen and gocanopen compare them letter by letter: they miss \
+    title: "a key in another case",
+    explanation: "Keys mean the same in upper and lower case. But python-canopen and gocanopen compare them letter by letter: they miss \
         `NodeId` and `NrOfRxPDO`, and python-canopen stops at `line5` among `Line1` to `Line4`. Write keys as the \
         standard has them.",
     clause: Some("CiA 306 4.2"),
@@ -25,7 +25,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
     for (topic, part) in view.topics() {
         let Some(known) = keys::of(topic) else { continue };
-        // How often each key stands there; only for the few sections in which one is not as it should be.
+        // How often each key is there; only for the few sections in which one is not as it should be.
         let mut counts: Option<BTreeMap<String, usize>> = None;
         for entry in part.entries().filter(|entry| !known.is_standard(entry.key.value)) {
             let Some(meant) = known.spelling(entry.key.value) else { continue };

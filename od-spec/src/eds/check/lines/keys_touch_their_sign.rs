@@ -11,10 +11,8 @@ const CODE: &Code = &Code {
     id: "EDS112",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "blanks around a key",
-    explanation: "A key begins its line, and the equals sign follows at once. With a blank in between, some readers take the blank \
-        for a part of the key; Python's configparser, which python-canopen and lely's tools use, takes an indented key \
-        for the continuation of the value above.",
+    title: "spaces around a key",
+    explanation: "A key begins its line, and the equals sign follows at once. With a space in between, some readers take the space as part of the key; Python's configparser, which python-canopen and lely's tools use, takes an indented key as the continuation of the value above.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("[Comments]\nLines =0", "[Comments]\nLines=0")),
 };
@@ -36,12 +34,12 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         found.add(place, cuts, || {
             let name = shorten(line.key().unwrap_or_default());
             let message = if start > 0 {
-                format!("blanks stand in front of `{name}`")
+                format!("there are spaces before `{name}`")
             } else {
-                format!("blanks stand between `{name}` and `=`")
+                format!("there are spaces between `{name}` and `=`")
             };
             Diagnostic::new(CODE, place.part(start, sign + 1), message)
-                .help("remove the blanks; `odgen fix` does")
+                .help("remove the spaces; `odgen fix` does")
         });
     }
     found.finish("lines", diagnostics);

@@ -14,9 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "different line breaks",
-    explanation: "Lines end with a line feed or with carriage return and line feed, and a file uses one of them. A carriage return \
-        alone is no line break for most readers: they take the next key as part of the value before it. Different breaks \
-        in one file are often the trace of a text that was pasted in.",
+    explanation: "Lines end with a line feed or with carriage return and line feed, and a file uses one of them. A \
+        carriage return alone is not a line break for most readers: they take the next key as part of the value before \
+        it. Different breaks in one file are often the trace of a text that was pasted in.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds(
         "[Comments]\r\nLines=1\nLine1=Breaks\r\n",

@@ -12,9 +12,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "a line of more than 255 characters",
-    explanation: "A line has at most 255 characters, key and equals sign included. That leaves 241 for a `ParameterName` and 243 \
-        for a `ProductName`. Readers written in C cut the rest off or take it for a line of its own. Shorten the text; \
-        bytes of a DOMAIN go into a file, which `DownloadFile` names.",
+    explanation: "A line has at most 255 characters, key and equals sign included. That leaves 241 for a \
+        `ParameterName` and 243 for a `ProductName`. Readers written in C cut the rest off or take it as a line of its \
+        own. Shorten the text; bytes of a DOMAIN go into a file, which `DownloadFile` names.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::dcf(
         "[DeviceComissioning]\nNodeID=1\nBaudrate=125\nNodeName=xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx",

@@ -1,4 +1,4 @@
-//! Every line is blank, a comment, a section name, or a key with a value.
+//! Every line is empty, a comment, a section name, or a key with a value.
 
 use super::super::edits;
 use super::super::rule::FormatRule;
@@ -12,10 +12,10 @@ const CODE: &Code = &Code {
     id: "EDS108",
     severity: Severity::Error,
     foreign: Severity::Error,
-    title: "a line that nobody can read",
-    explanation: "A line is empty, a comment that begins with `;`, the name of a section in brackets, or a key, `=` and a value. \
-        Everything else makes Python's configparser refuse the file, and is dropped by others without a word. Often it \
-        is the second line of a text that was broken: a value is one line.",
+    title: "a line that cannot be read",
+    explanation: "A line is empty, a comment that begins with `;`, the name of a section in brackets, or a key, `=` \
+        and a value. Everything else makes Python's configparser refuse the file, and is dropped silently by others. \
+        Often it is the second line of a text that was broken: a value is one line.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds(
         "[Comments]\nLines=1\nLine1=A text that\ngoes on",

@@ -1,4 +1,4 @@
-//! Nothing stands before the text: no byte order mark.
+//! Nothing comes before the text: no byte order mark.
 
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Example, Severity};
@@ -12,8 +12,8 @@ pub(crate) const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a byte order mark",
-    explanation: "Three bytes in front of the text say that it is UTF-8; the standard has no such mark. lely's tools and \
-        python-canopen take it for a part of the first section's name and refuse the file. Store the file as ASCII or as \
+    explanation: "Three bytes before the text say that it is UTF-8; the standard has no such mark. lely's tools and \
+        python-canopen take it as part of the first section's name and refuse the file. Store the file as ASCII or as \
         UTF-8 without a mark.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("﻿[Comments]\nLines=0", "[Comments]\nLines=0")),

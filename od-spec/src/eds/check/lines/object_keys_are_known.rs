@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "an unknown key of an object",
-    explanation: "The standard has no key of this name for an object or entry. It is allowed to add some, so most readers pass \
-        over it; lely's dcfchk refuses the file. Where the name is a misspelling, what the standard's key would say is \
-        missing: an access type, a limit.",
+    explanation: "The standard has no key of this name for an object or entry. It is allowed to add some, so most \
+        readers ignore it; lely's dcfchk refuses the file. Where the name is a misspelling, what the standard's key \
+        would say is missing: an access type, a limit.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds(
         "[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nUnit=mV",

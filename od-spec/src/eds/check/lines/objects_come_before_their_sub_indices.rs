@@ -11,8 +11,8 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "a sub-index before its object",
-    explanation: "The standard allows any order. python-canopen reads a file from top to bottom and stops at a sub-index whose \
-        object it does not know yet. Move the section of the object in front.",
+    explanation: "The standard allows any order. python-canopen reads a file from top to bottom and stops at a \
+        sub-index whose object it does not know yet. Move the section of the object before them.",
     clause: None,
     example: Some(Example::eds(
         "[2000sub0]\nParameterName=highest\nDataType=0x0005\nAccessType=const\nDefaultValue=0\n\n[2000]\nParameterName=levels\nObjectType=0x8\nSubNumber=1",

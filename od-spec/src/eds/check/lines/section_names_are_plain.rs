@@ -1,4 +1,4 @@
-//! Names of sections have no prefix, no blanks and no zeros in front.
+//! Names of sections have no prefix, no spaces and no leading zeros.
 
 use super::super::edits;
 use super::super::rule::FormatRule;
@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a section name in another notation",
-    explanation: "The name of an object's section is its index in hexadecimal, without `0x`, without blanks and with as few digits \
+    explanation: "The name of an object's section is its index in hexadecimal, without `0x`, without spaces and with as few digits \
         as the number has: `[1018]`, `[1018sub1]`. Readers that compare letters find no object in `[0x1018]`, and no \
         sub-index in `[1018sub01]`.",
     clause: Some("CiA 306 4.6.3.2"),
@@ -35,7 +35,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                 continue;
             }
             let place = inside(view, section);
-            // In one spelling two sections would stand there that every reader takes for one.
+            // In one spelling two sections would be there that every reader takes for one.
             let is_single = part.sections.len() == 1;
             let edit = is_single.then(|| Edit { span: place, text: meant.clone() });
             found.add(place, edit, || {
@@ -64,7 +64,7 @@ fn has_blanks(line: &str) -> bool {
     line.contains(']') && name.trim() != name
 }
 
-/// What stands between the brackets.
+/// What is between the brackets.
 fn inside(view: &View<'_>, section: &SectionRef<'_, '_>) -> Span {
     let text = section.header().text();
     match (text.find('['), text.find(']')) {

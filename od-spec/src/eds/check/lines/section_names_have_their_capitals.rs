@@ -1,4 +1,4 @@
-//! Names of sections have the standard's capitals.
+//! Names of sections have the standard's case.
 
 use super::super::rule::FormatRule;
 use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Example, Repeated, Severity, shorten};
@@ -11,9 +11,9 @@ const CODE: &Code = &Code {
     id: "EDS120",
     severity: Severity::Warning,
     foreign: Severity::Warning,
-    title: "a section name in other capitals",
-    explanation: "Names of sections mean the same in any capitals. But lely's dcfgen and gocanopen look for `[1A00sub1]` letter by \
-        letter and do not find `[1a00Sub1]`. Write index and sub-index in capitals, `sub` in small letters, and the \
+    title: "a section name in another case",
+    explanation: "Names of sections mean the same in upper and lower case. But lely's dcfgen and gocanopen look for `[1A00sub1]` letter by \
+        letter and do not find `[1a00Sub1]`. Write index and sub-index in upper case, `sub` in lower case, and the \
         other names as the standard has them.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("[comments]\nLines=0", "[Comments]\nLines=0")),
@@ -29,7 +29,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                 continue;
             }
             let place = name_place(section.header(), view.file);
-            // In one spelling two sections would stand there that every reader takes for one.
+            // In one spelling two sections would be there that every reader takes for one.
             let is_single = part.sections.len() == 1;
             let edit = is_single.then(|| Edit { span: place, text: meant.clone() });
             found.add(place, edit, || {

@@ -12,8 +12,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "an unknown section",
-    explanation: "The standard has no section of this name. It is allowed to add some, so most readers pass over it; lely's dcfchk \
-        refuses the file. Where the name is a misspelling, a section that the standard wants is missing.",
+    explanation: "The standard has no section of this name. It is allowed to add some, so most readers ignore it; \
+        lely's dcfchk refuses the file. Where the name is a misspelling, a section that the standard wants is \
+        missing.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("[VendorSpecific]\nColor=1", "; Color is 1")),
 };
@@ -43,7 +44,7 @@ fn message(name: &str) -> Message {
     let plain = Topic::OF_EVERY_FILE.into_iter().chain([Topic::Commissioning, Topic::SupportedModules]);
     let known: Vec<String> = plain.filter_map(canonical).collect();
     let is_number = name.len() > 4 && name.bytes().all(|byte| byte.is_ascii_hexdigit());
-    let text = format!("`{}` is no section of the standard", shorten(name));
+    let text = format!("`{}` is not a section of the standard", shorten(name));
     let help = match nearest(name, known.iter().map(String::as_str)) {
         Some(meant) => format!("did you mean `{meant}`?"),
         None if is_number => "an index has four hexadecimal digits".to_owned(),

@@ -1,4 +1,4 @@
-//! Every section stands once.
+//! Every section is written once.
 
 use super::super::edits;
 use super::super::rule::FormatRule;
@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     id: "EDS110",
     severity: Severity::Error,
     foreign: Severity::Error,
-    title: "a section that stands twice",
-    explanation: "Readers disagree about a section that stands twice: Python's configparser refuses the file, others take the last \
-        one, the first one, or both together. Names are compared in any capitals, and `[1018sub1]` and `[1018sub01]` are \
+    title: "a section that is written twice",
+    explanation: "Readers disagree about a section that is written twice: Python's configparser refuses the file, others take the last \
+        one, the first one, or both together. Names are compared without regard to case, and `[1018sub1]` and `[1018sub01]` are \
         one section. Where both say the same, one is superfluous; where they do not, decide which is right.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds("[Comments]\nLines=0\n\n[Comments]\nLines=0", "[Comments]\nLines=0")),
@@ -44,12 +44,12 @@ fn compare<'d>(view: &View<'d>, sections: &[SectionRef<'d, 'd>], diagnostics: &m
     for other in others {
         let place = name_place(other.header(), view.file);
         let name = shorten(other.name());
-        let mut diagnostic = Diagnostic::new(CODE, place, format!("section `{name}` stands twice"))
+        let mut diagnostic = Diagnostic::new(CODE, place, format!("section `{name}` is written twice"))
             .label("again here")
             .with(name_place(first.header(), view.file), "first here");
         let is_empty = other.keys().next().is_none();
         are_equal &= is_empty || first_keys == keys(other);
-        // Readers take the last: behind another section, an equal one is not superfluous.
+        // Readers take the last: after another section, an equal one is not superfluous.
         if is_empty || are_equal {
             diagnostic = diagnostic.help("remove one of the two, they say the same; `odgen fix` does");
             diagnostic.edits = removal(view, other);

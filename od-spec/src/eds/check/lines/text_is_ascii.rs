@@ -16,9 +16,10 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Warning,
     title: "characters outside ASCII",
-    explanation: "An EDS is ASCII text. Other characters are stored in different ways by different editors, and nothing in the \
-        file says which: lely's tools and python-canopen refuse a file that is not UTF-8, others show wrong characters. \
-        Write `ae` for `ä`, `deg` for `°`. The values of objects are left to you, as they are what the device has.",
+    explanation: "An EDS is ASCII text. Other characters are stored in different ways by different editors, and \
+        nothing in the file says which: lely's tools and python-canopen refuse a file that is not UTF-8, others show \
+        wrong characters. Write `ae` for `ä`, `deg` for `°`. The values of objects are left to you, because they are \
+        what the device has.",
     clause: Some("CiA 306 4.2"),
     example: Some(Example::eds(
         "[Comments]\nLines=1\nLine1=Up to 40 °C",
@@ -75,7 +76,7 @@ fn transliterated(view: &View<'_>, line: &Line<'_>) -> Vec<Edit> {
     if edits.len() <= FEW {
         return edits;
     }
-    // Of many, each with a column of its own in a line that is long, nobody wants to know the single ones.
+    // Where there are many, each with a column of its own in a long line, single ones are of no interest.
     let (Some(first), Some(last)) = (edits.first(), edits.last()) else { return edits };
     let (from, to) = (first.span.start - place.start, last.span.end - place.start);
     let between = text.get(from as usize..to as usize).unwrap_or_default();
@@ -107,7 +108,7 @@ mod tests {
         assert!(kept.iter().all(|line| fixed.text().contains(line)), "{}", fixed.text());
     }
 
-    /// A change for each character would have to be told with its column, for which the whole line is counted.
+    /// A change for each character would have to be reported with its column, for which the whole line is counted.
     #[test]
     fn many_characters_of_a_line_are_one_change() {
         let text = format!("[FileInfo]\nDescription={}\n", "ä\t".repeat(5000));

@@ -1,4 +1,4 @@
-//! Names and texts stand without quotation marks.
+//! Names and texts are without quotation marks.
 
 use super::super::keys::TEXTS;
 use super::super::rule::FormatRule;
@@ -12,7 +12,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "quotation marks around a text",
-    explanation: "Texts are written as they are, without quotation marks. What stands in quotation marks has them in its name: \
+    explanation: "Texts are written as they are, without quotation marks. What is in quotation marks has them in its name: \
         tools show them, or make them part of a variable's name. Remove them, unless they are meant.",
     clause: Some("CiA 306 4.3"),
     example: Some(Example::eds(
@@ -31,7 +31,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                 Diagnostic::new(
                     CODE,
                     entry.value.span,
-                    format!("`{}` stands in quotation marks", shorten(value)),
+                    format!("`{}` is in quotation marks", shorten(value)),
                 )
                 .help("remove the quotation marks, unless they are part of the text")
             });

@@ -12,7 +12,7 @@ use crate::source::Span;
 /// Names that are said; a file that is no EDS has many.
 const MOST: usize = 10;
 
-/// A name that is no key.
+/// A name that is not a key.
 struct Unknown {
     place: Span,
     times: usize,
@@ -20,7 +20,7 @@ struct Unknown {
     known: keys::Keys,
 }
 
-/// One message for each name among the keys of some sections: a key of somebody's own stands in many of them. `here` tells
+/// One message for each name among the keys of some sections: a tool's own key is in many of them. `here` says
 /// where the standard has no such key.
 pub(super) fn report<'v, 'd: 'v>(
     code: &'static Code,
@@ -33,7 +33,7 @@ pub(super) fn report<'v, 'd: 'v>(
         let Some(known) = keys::of(topic) else { continue };
         for entry in part.entries() {
             let name = entry.key.value;
-            // What is no word is said already.
+            // What is not a word is said already.
             if known.is_standard(name) || !is_word(name) || known.spelling(name).is_some() {
                 continue;
             }
@@ -46,8 +46,8 @@ pub(super) fn report<'v, 'd: 'v>(
     let mut names: Vec<_> = names.into_iter().collect();
     names.sort_by_key(|(_, unknown)| unknown.place);
     for (name, Unknown { place, times, known }) in names.into_iter().take(MOST) {
-        let times = if times > 1 { format!("; it stands {times} times") } else { String::new() };
-        let message = format!("`{}` is no key of the standard {here}{times}", shorten(name));
+        let times = if times > 1 { format!("; it is written {times} times") } else { String::new() };
+        let message = format!("`{}` is not a key of the standard {here}{times}", shorten(name));
         let meant = diagnostics.suggestions.nearest(name, known.names());
         diagnostics.push(
             Diagnostic::new(code, place, message).help(match meant {

@@ -22,7 +22,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     let mut found = Repeated::new();
     for line in view.document.lines() {
         let Some(at) = line.text().bytes().position(is_control) else { continue };
-        // The breaks between empty lines; and the DOS end-of-file sign behind the text hurts nobody.
+        // The breaks between empty lines; and the DOS end-of-file sign after the text does no harm.
         if line.number() > 1 || line.text().trim_start_matches('\u{1A}').is_empty() {
             continue;
         }

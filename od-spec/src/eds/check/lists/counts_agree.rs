@@ -14,9 +14,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "a list with another number of entries",
-    explanation: "A list says in front how many entries it has: `SupportedObjects`, `NrOfEntries`, `Lines` or `ObjectLinks`. \
-        Readers that go up to that number miss the entries behind it, or stop at the first that is not there; lely's \
-        tools refuse the file.",
+    explanation: "A list begins with the number of its entries: `SupportedObjects`, `NrOfEntries`, `Lines` or \
+        `ObjectLinks`. Readers that go up to that number miss the entries after it, or stop at the first that is not \
+        there; lely's tools refuse the file.",
     clause: Some("CiA 306 4.6.3.1"),
     example: Some(Example::eds(
         "[Comments]\nLines=2\nLine1=The only one",

@@ -12,8 +12,7 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a data type in a list of objects",
-    explanation: "Indices below 1000h are data types, which the lists do not name; a device may describe types of its own in \
-        sections all the same. lely's tools refuse such entries.",
+    explanation: "Indices below 1000h are data types, which the lists do not name; a device may still describe types of its own in sections. lely's tools refuse such entries.",
     clause: Some("CiA 306 4.6.3.1"),
     example: Some(Example::eds(
         "[OptionalObjects]\nSupportedObjects=1\n1=0x0005",

@@ -14,7 +14,7 @@ pub const CODE: &Code = &Code {
     id: "EDS304",
     severity: Severity::Error,
     foreign: Severity::Error,
-    title: "an entry of a list that is no index",
+    title: "an entry of a list that is not an index",
     explanation: "An entry of a list of objects is an index, a number of 0x0000 to 0xFFFF. What cannot be read names no object: \
         readers stop, or lose it.",
     clause: Some("CiA 306 4.6.3.1"),

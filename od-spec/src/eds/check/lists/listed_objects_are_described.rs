@@ -15,8 +15,7 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Error,
     title: "a listed object without a section",
-    explanation: "The list names an object, and no section describes it. lely's tools refuse the file, and what the object is \
-        nobody knows. Describe the object, or take it out of the list if the device does not have it.",
+    explanation: "The list names an object, and no section describes it. lely's tools refuse the file, and it is unknown what the object is. Describe the object, or remove it from the list if the device does not have it.",
     clause: Some("CiA 306 4.6.3.1"),
     example: Some(Example::eds(
         "[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2001\n\n[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro",

@@ -14,8 +14,8 @@ const CODE: &Code = &Code {
     foreign: Severity::Warning,
     title: "a list with gaps",
     explanation: "The entries of a list have the numbers 1, 2, 3 and so on, in decimal and without gaps. Readers count up to the \
-        number of entries: what stands behind a gap is lost, and of two entries with one number one is. In which order \
-        the entries stand does not matter.",
+        number of entries: what follows a gap is lost, and of two entries with one number one is. In which order \
+        the entries are does not matter.",
     clause: Some("CiA 306 4.6.3.1"),
     example: Some(Example::eds(
         "[Comments]\nLines=2\nLine1=First\nLine3=Last",

@@ -12,7 +12,7 @@ const CODE: &Code = &Code {
     severity: Severity::Note,
     foreign: Severity::Note,
     title: "a list of objects in another order",
-    explanation: "Lists of objects usually ascend, and people look for an index in that order. Nothing else depends on it.",
+    explanation: "Lists of objects usually ascend, and readers look for an index in that order. Nothing else depends on it.",
     clause: None,
     example: Some(Example::eds(
         "[ManufacturerObjects]\nSupportedObjects=2\n1=0x2001\n2=0x2000\n\n[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\n\n[2001]\nParameterName=limit\nObjectType=0x7\nDataType=0x0005\nAccessType=ro",
@@ -32,7 +32,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             _ => None,
         });
         if let Some((before, index, place)) = step {
-            let message = format!("{index} is listed behind {before}");
+            let message = format!("{index} is listed after {before}");
             diagnostics
                 .push(Diagnostic::new(CODE, place, message).help("list the objects in ascending order"));
         }

@@ -13,7 +13,7 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "a list of objects that is missing",
-    explanation: "Every object stands in one of three lists: `[MandatoryObjects]`, `[OptionalObjects]` or `[ManufacturerObjects]`. \
+    explanation: "Every object is in one of three lists: `[MandatoryObjects]`, `[OptionalObjects]` or `[ManufacturerObjects]`. \
         A list without objects has `SupportedObjects=0`. lely's tools stop where a list is missing, others find no \
         objects.",
     clause: Some("CiA 306 4.6.1"),

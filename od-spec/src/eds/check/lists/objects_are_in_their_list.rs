@@ -1,4 +1,4 @@
-//! Every object stands in the list that its index belongs to.
+//! Every object is in the list that its index belongs to.
 
 use super::super::numbered;
 use super::super::rule::FormatRule;
@@ -15,8 +15,8 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "an object in the wrong list",
-    explanation: "Objects of 2000h to 5FFFh are the manufacturer's and stand in `[ManufacturerObjects]`; 1000h, 1001h and 1018h \
-        stand in `[MandatoryObjects]`, all others in `[OptionalObjects]`. lely's tools refuse a file that mixes them.",
+    explanation: "Objects of 2000h to 5FFFh are the manufacturer's and are in `[ManufacturerObjects]`; 1000h, 1001h and 1018h \
+        are in `[MandatoryObjects]`, all others in `[OptionalObjects]`. lely's tools refuse a file that mixes them.",
     clause: Some("CiA 306 4.6.3.1"),
     example: Some(Example::eds(
         "[OptionalObjects]\nSupportedObjects=1\n1=0x2000\n\n[ManufacturerObjects]\nSupportedObjects=0\n\n\n[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro",
@@ -50,7 +50,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
                 1 => "; 1 more entry like this".to_owned(),
                 _ => format!("; {more} more entries like this"),
             };
-            let message = format!("{first} stands in `[{}]`{others}", list.section());
+            let message = format!("{first} is in `[{}]`{others}", list.section());
             let mut diagnostic = Diagnostic::new(CODE, entry.value.span, message)
                 .help(format!("move it to `[{}]`; `odgen fix` does", right.section()));
             let gone = strays().map(|(_, entry)| entry.key.span.start).collect();

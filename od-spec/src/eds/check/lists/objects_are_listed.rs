@@ -1,4 +1,4 @@
-//! Every object stands in a list.
+//! Every object is in a list.
 
 use super::super::numbered;
 use super::super::rule::FormatRule;
@@ -14,9 +14,9 @@ const CODE: &Code = &Code {
     id: "EDS307",
     severity: Severity::Error,
     foreign: Severity::Error,
-    title: "an object that stands in no list",
-    explanation: "A section describes an object, and no list names it. Readers that go by the lists, lely's C tools among them, \
-        lose the object without a word. `odgen fix` adds it to the list that its index belongs to.",
+    title: "an object that is in no list",
+    explanation: "A section describes an object, and no list names it. Readers that go by the lists, lely's C tools \
+        among them, lose the object silently. `odgen fix` adds it to the list that its index belongs to.",
     clause: Some("CiA 306 4.6.3.1"),
     example: Some(Example::eds(
         "[ManufacturerObjects]\nSupportedObjects=0\n\n\n[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro",
@@ -43,7 +43,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
             own.map(|(_, own)| own.rewritten(view, &BTreeSet::new(), &indices)).unwrap_or_default();
         for (index, place) in missing {
             found.add(place, std::mem::take(&mut edits), || {
-                Diagnostic::new(CODE, place, format!("{index} stands in no list of objects"))
+                Diagnostic::new(CODE, place, format!("{index} is in no list of objects"))
                     .help(format!("add it to `[{}]`; `odgen fix` does", list.section()))
             });
         }
@@ -76,7 +76,7 @@ fn of_modules(view: &View<'_>, found: &mut Repeated) {
             };
             if !list.contains(index) {
                 found.add(part.place(), [], || {
-                    let message = format!("{index} of module {number} stands in no list of the module");
+                    let message = format!("{index} of module {number} is in no list of the module");
                     Diagnostic::new(CODE, part.place(), message)
                         .help(format!("add it to `[M{number}{name}]`"))
                 });

@@ -14,7 +14,7 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "an object that is listed twice",
-    explanation: "An object stands in one list, and there once. Readers that make a list of objects from the lists get it twice, \
+    explanation: "An object is in one list, and there once. Readers that make a list of objects from the lists get it twice, \
         and those that compare the number of objects with the number of sections refuse the file.",
     clause: Some("CiA 306 4.6.3.1"),
     example: Some(Example::eds(
@@ -52,7 +52,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         }
     }
     for (list, (places, mut said)) in superfluous {
-        // They are put right together: each removal changes the numbers of the others.
+        // They are fixed together: each removal changes the numbers of the others.
         let entries = lists.iter().find(|(other, _)| *other == list);
         if let (Some((_, entries)), Some(last)) = (entries, said.first_mut()) {
             last.edits = entries.rewritten(view, &places, &[]);

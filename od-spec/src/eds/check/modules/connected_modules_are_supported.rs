@@ -16,7 +16,7 @@ pub const CODE: &Code = &Code {
     foreign: Severity::Error,
     title: "a connected module that the bus coupler does not know",
     explanation: "`[ConnectedModules]` names the modules of a node in their order, each by the number of its description. A number \
-        without a description names no module, and the objects behind it cannot be known.",
+        without a description names no module, and the objects after it cannot be known.",
     clause: Some("CiA 306 6.4"),
     example: Some(Example::dcf(
         "[SupportedModules]\nNrOfEntries=1\n\n[M1ModuleInfo]\nProductName=input\nProductVersion=1\nProductRevision=0\nOrderCode=A2\n\n[M1FixedObjects]\nNrOfEntries=1\n1=0x2000\n\n[M1Fixed2000]\nParameterName=state\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\n\n[ConnectedModules]\nNrOfEntries=1\n1=2",

@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     title: "an extension that cannot be counted",
     explanation: "`Count` says how many sub-indices a module adds to an object: a number, or `0;b` for a module that fills b bits \
         of a sub-index which it shares with its neighbours. `ObjExtend` is the highest sub-index before the next object \
-        begins. Without them nobody knows which sub-index belongs to which module.",
+        begins. Without them it is unknown which sub-index belongs to which module.",
     clause: Some("CiA 306 6.3"),
     example: Some(Example::eds(
         "[SupportedModules]\nNrOfEntries=1\n\n[M1ModuleInfo]\nProductName=input\nProductVersion=1\nProductRevision=0\nOrderCode=A2\n\n[M1SubExtends]\nNrOfEntries=1\n1=0x6000\n\n[M1SubExt6000]\nParameterName=inputs\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nCount=some",

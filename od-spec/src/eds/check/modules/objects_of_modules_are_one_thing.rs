@@ -12,9 +12,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "an object of a module in two roles",
-    explanation: "A module brings an object, then nobody else has it, or it extends one that the bus coupler or other modules \
-        have. An object that a module brings and extends, or brings although the bus coupler has it, is described twice, \
-        and readers take one or the other.",
+    explanation: "Either a module brings an object, and nothing else has it, or it extends one that the bus coupler or \
+        other modules have. An object that a module brings and extends, or brings although the bus coupler has it, is \
+        described twice, and readers take one or the other.",
     clause: Some("CiA 306 6.3"),
     example: Some(Example::eds(
         "[SupportedModules]\nNrOfEntries=1\n\n[M1ModuleInfo]\nProductName=input\nProductVersion=1\nProductRevision=0\nOrderCode=A2\n\n[M1FixedObjects]\nNrOfEntries=1\n1=0x2000\n\n[M1Fixed2000]\nParameterName=state\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\n\n[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro",

@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a flag without a meaning",
-    explanation: "`ObjFlags` has two bits: bit 0 keeps tools from writing the entry when they download a configuration, bit 1 from \
-        reading it when they scan the device. The others are reserved and 0. What somebody else has meant with them no \
-        tool knows.",
+    explanation: "`ObjFlags` has two bits: bit 0 keeps tools from writing the entry when they download a \
+        configuration, bit 1 from reading it when they scan the device. The others are reserved and 0. What another \
+        tool means by them is unknown to all others.",
     clause: Some("CiA 306 4.6.3.3"),
     example: Some(Example::eds(
         "[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\nObjFlags=0x4",

@@ -31,7 +31,7 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         }
         found.add(entry.value.span, [], || {
             Diagnostic::new(CODE, entry.value.span, "`ObjFlags` is 0, which it is without the key, too")
-                .help("nothing to do; whoever writes the file could leave the key out")
+                .help("nothing to do; the author of the file could leave the key out")
         });
     }
     found.finish("entries", diagnostics);

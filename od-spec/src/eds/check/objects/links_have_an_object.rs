@@ -13,7 +13,7 @@ pub const CODE: &Code = &Code {
     foreign: Severity::Note,
     title: "links from nothing",
     explanation: "`[xxxxObjectLinks]` names objects that belong together with the object xxxx. That has to be described itself; \
-        otherwise the links are nobody's, and are left out.",
+        otherwise the links belong to no object, and are left out.",
     clause: Some("CiA 306 4.6.4"),
     example: Some(Example::eds(
         "[2000]\nParameterName=level\nObjectType=0x7\nDataType=0x0005\nAccessType=ro\n\n[2001ObjectLinks]\nObjectLinks=1\n1=0x2000",

@@ -15,7 +15,7 @@ const CODE: &Code = &Code {
     severity: Severity::Note,
     foreign: Severity::Note,
     title: "a mapping of either direction",
-    explanation: "`PDOMapping=1` does not tell a direction; the access type does. With `rw` the entry can be mapped into RPDOs and \
+    explanation: "`PDOMapping=1` does not state a direction; the access type does. With `rw` the entry can be mapped into RPDOs and \
         TPDOs. Where the device takes it in one of them only, `rww` (RPDO) or `rwr` (TPDO) says so, and a PLC offers no \
         mapping that the device refuses.",
     clause: Some("CiA 306 4.6.3.2 (AccessType, PDOMapping)"),

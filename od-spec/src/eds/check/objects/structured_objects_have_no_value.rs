@@ -12,9 +12,10 @@ const CODE: &Code = &Code {
     severity: Severity::Warning,
     foreign: Severity::Note,
     title: "a value of an object that has sub-indices",
-    explanation: "An ARRAY or RECORD has no value of its own: data type, access, default value, limits and PDO mapping belong to \
-        its sub-indices. At the object most readers pass over them, some take them for the sub-indices that say nothing, \
-        and lely's dcfchk refuses `AccessType`. Only an object with `CompactSubObj` says them for its elements.",
+    explanation: "An ARRAY or RECORD has no value of its own: data type, access, default value, limits and PDO mapping \
+        belong to its sub-indices. At the object most readers ignore them, some use them for the sub-indices that say \
+        nothing, and lely's dcfchk refuses `AccessType`. Only an object with `CompactSubObj` says them for its \
+        elements.",
     clause: Some("CiA 306 4.6.3.2"),
     example: Some(Example::eds(
         "[2000]\nParameterName=levels\nObjectType=0x8\nSubNumber=2\nAccessType=ro\n\n[2000sub0]\nParameterName=highest\nDataType=0x0005\nAccessType=const\nDefaultValue=1\n\n[2000sub1]\nParameterName=level\nDataType=0x0005\nAccessType=ro",

@@ -13,9 +13,9 @@ const CODE: &Code = &Code {
     severity: Severity::Error,
     foreign: Severity::Warning,
     title: "an object that does not count its sub-indices",
-    explanation: "An ARRAY or RECORD says how many sub-indices it has: `SubNumber`, those that have a section, or `CompactSubObj`, \
-        the elements of an array that are all alike. Without, lely's tools find none, and nobody knows whether sections \
-        are missing.",
+    explanation: "An ARRAY or RECORD says how many sub-indices it has: `SubNumber`, those that have a section, or \
+        `CompactSubObj`, the elements of an array that are all alike. Without it, lely's tools find none, and it is \
+        unknown whether sections are missing.",
     clause: Some("CiA 306 4.6.3.2"),
     example: Some(Example::eds(
         "[2000]\nParameterName=levels\nObjectType=0x8\n\n[2000sub0]\nParameterName=highest\nDataType=0x0005\nAccessType=const\nDefaultValue=1\n\n[2000sub1]\nParameterName=level\nDataType=0x0005\nAccessType=ro",

@@ -36,7 +36,7 @@ fn time(file: &str, rounds: &str, names: &[&str]) -> Result<(), String> {
     let rounds: usize = rounds.parse().map_err(|_| USAGE.to_owned())?;
     let steps = names.iter().map(|name| step(name)).collect::<Result<Vec<_>, _>>()?;
     for round in 0..rounds {
-        // Whoever comes first finds the machine as the last one left it; so each comes first in turn.
+        // The first one finds the machine as the last one left it; so each comes first in turn.
         for at in 0..steps.len() {
             let step = steps[(at + round) % steps.len()];
             let (time, _) = step.run(&bytes).map_err(|problem| format!("{}: {problem}", step.name()))?;

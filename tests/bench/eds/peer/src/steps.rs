@@ -20,7 +20,7 @@ pub enum Step {
     Convert,
     /// The model as a specification.
     Import,
-    /// The text with everything put right that needs no guess.
+    /// The text with everything fixed that needs no guess.
     Fix,
     RustIni,
     CanopenHost,

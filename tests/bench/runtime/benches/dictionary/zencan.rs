@@ -1,4 +1,4 @@
-//! zencan-node: a sorted table of objects behind `dyn`, entries found by each object's own method.
+//! zencan-node: a sorted table of objects called through `dyn`, entries found by each object's own method.
 
 use std::hint::black_box;
 

@@ -8,7 +8,7 @@ pub struct Model {
     pub setpoints: &'static [u16],
     /// Index of a position, which is read-only.
     pub position: u16,
-    /// Indices of the setpoint and position that TPDO 1 maps, and of the speed that RPDO 1 maps beside the setpoint.
+    /// Indices of the setpoint and position that TPDO 1 maps, and of the speed that RPDO 1 maps with the setpoint.
     pub mapped: [u16; 3],
 }
 

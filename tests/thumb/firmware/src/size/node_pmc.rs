@@ -47,7 +47,7 @@ impl NorFlash for Flash {
     }
 }
 
-/// What a drive does beside driving.
+/// What a drive does in addition to driving.
 struct Drive {
     store: Option<ParameterStore<Flash, 64>>,
 }

@@ -40,9 +40,9 @@ pub(super) struct Download<'a, B> {
 enum Wanted {
     /// The node answers, and its memory is not busy.
     Ready,
-    /// The program is in this state. A node that does not tell has taken the command.
+    /// The program is in this state. A node that does not report it has taken the command.
     State(State),
-    /// The program is in this state, which the node has to tell, as it has not answered the command.
+    /// The program is in this state, which the node has to report, because it has not answered the command.
     Told(State),
 }
 
@@ -89,7 +89,7 @@ impl<'a, B: Bus> Download<'a, B> {
         self.wait_for(Wanted::State(State::Started))
     }
 
-    /// Gives a command. Where the answer is missing, the node has to tell the state that follows.
+    /// Gives a command. Where the answer is missing, the node has to report the state that follows.
     fn give(&mut self, step: Step, command: Command, after: State) -> Result<(), Failure> {
         self.begin(step)?;
         let control = self.places.control;
@@ -145,7 +145,7 @@ impl<'a, B: Bus> Download<'a, B> {
         Err(if is_ours { Failure::Interrupted } else { Failure::Access(self.places.data, error) })
     }
 
-    /// Demands that the node has written the program, as far as it tells.
+    /// Demands that the node has written the program, as far as it reports it.
     fn check(&mut self) -> Result<(), Failure> {
         self.effect = Effect::Done;
         self.wait_for(Wanted::Ready)?;
@@ -209,7 +209,7 @@ impl<'a, B: Bus> Download<'a, B> {
             Err(error) if !error.is_of_entry() => return Ok(Found::NotYet(Failure::Access(id, error))),
             Err(error) => {
                 return match wanted {
-                    // It answers, and does not tell.
+                    // It answers, and does not report it.
                     Wanted::Ready | Wanted::State(_) => Ok(Found::Wanted),
                     Wanted::Told(_) => Err(Failure::Access(id, error)),
                 };

@@ -98,7 +98,7 @@ fn data(file: &Path) -> Result<Vec<u8>, Diagnostic> {
     }
 }
 
-/// A number that a node has, where it tells.
+/// A number that a node has, where it reports one.
 fn number<B: Bus>(
     client: &mut Client<B>,
     target: Target<'_>,
@@ -123,7 +123,7 @@ fn state(number: u32) -> Option<State> {
     u8::try_from(number).ok().map(State::of)
 }
 
-/// `stopped`; `unknown` where the node does not tell.
+/// `stopped`; `unknown` where the node does not report it.
 fn state_in_words(state: Option<State>) -> String {
     state.map_or_else(|| "unknown".to_owned(), |state| state.to_string())
 }

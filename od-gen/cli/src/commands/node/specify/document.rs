@@ -30,7 +30,7 @@ pub(super) struct Told<'a> {
     mapped: BTreeMap<EntryId, Mapped>,
 }
 
-/// Longer values that are no text are blocks.
+/// Longer values that are not text are blocks.
 const LONGEST_OCTETS: usize = 255;
 
 /// 1028h, in which 0 is the identifier of no emergency message.
@@ -368,7 +368,7 @@ fn text(holds: &Holds) -> Option<String> {
 }
 
 /// The type of an entry: what a standard says where that fits, or else what a PDO carries of it, or how long it is. `None` where
-/// nothing tells.
+/// nothing states.
 fn data_type(holds: &Holds, known: Option<DataType>, mapped: Option<Mapped>) -> Option<DataType> {
     let mapped = mapped.and_then(|mapped| unsigned(mapped.bits));
     let Holds::Bytes(bytes) = holds else { return known.or(mapped) };

@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn an_entry_in_pdos_of_both_directions_is_told_as_that() {
+    fn an_entry_in_pdos_of_both_directions_is_reported_as_that() {
         let id = |index, sub| EntryId { index: Index(index), sub: SubIndex(sub) };
         let values =
             [(id(0x1600, 1), 0x2000_0110), (id(0x1A00, 1), 0x2000_0110), (id(0x1A00, 2), 0x2001_0008)];

@@ -86,7 +86,7 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
             if let Some(line) = lines.last_mut() {
                 line.extend(word);
             }
-            // Blanks at the end of a line are none at the beginning of the next one.
+            // Spaces at the end of a line are not at the beginning of the next one.
             word = if rest.iter().all(|letter| *letter == ' ') { Vec::new() } else { rest };
         }
     }

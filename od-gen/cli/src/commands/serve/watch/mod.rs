@@ -40,7 +40,7 @@ enum Keys {
     Typing,
 }
 
-/// What is shown, beside the values themselves.
+/// What is shown, in addition to the values themselves.
 struct View<'a> {
     title: String,
     rows: Rows<'a>,
@@ -49,7 +49,7 @@ struct View<'a> {
     /// Rows on a page, as it was drawn last.
     page: usize,
     keys: Keys,
-    /// What happened last that nobody else says.
+    /// What happened last that nothing else shows.
     note: Option<String>,
     hosts: usize,
     frames_per_second: usize,

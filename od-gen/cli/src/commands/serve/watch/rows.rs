@@ -94,7 +94,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// A node has told of an error, or that it is gone.
+    /// A node has reported an error, or that it is gone.
     pub(super) fn emergency(&mut self, node: u8, text: &str) {
         if let Some(seen) = self.nodes.iter_mut().find(|seen| seen.node.id == node) {
             seen.emergency = Some(text.to_owned());
