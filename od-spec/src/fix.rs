@@ -61,7 +61,7 @@ impl Fixed {
     }
 }
 
-/// Makes all changes of an EDS or DCF that put something right without guessing, and no others: every other byte stays.
+/// Makes all changes of an EDS or DCF that fix something without guessing, and no others: every other byte stays.
 ///
 /// Doing it twice changes nothing, and it never makes more errors than there were.
 ///

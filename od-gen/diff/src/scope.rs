@@ -51,7 +51,7 @@ impl Scope {
     }
 
     /// Smallest and largest value. An EDS has one range, which takes the special values in; the ends of the data type are
-    /// none of its limits, as some tools write them and others do not.
+    /// not limits, because some tools write them and others do not.
     pub(super) fn limits(self, entry: &Entry) -> (Option<Value>, Option<Value>) {
         if self.is_everything() || entry.data_type.range().is_none() {
             return entry.limits();

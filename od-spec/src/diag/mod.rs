@@ -74,7 +74,7 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// Facts that explain the rule.
     pub notes: Vec<String>,
-    /// The changes that put it right, all together, without anything being guessed; none where a person has to decide.
+    /// The changes that fix it, all together, without anything being guessed; none where a person has to decide.
     pub edits: Vec<Edit>,
     /// The change that a person may have meant: what the help asks about.
     pub meant: Option<Box<Edit>>,
@@ -186,7 +186,7 @@ impl Diagnostic {
         self
     }
 
-    /// A change that puts it right, or one of several that do together.
+    /// A change that fixes it, or one of several that do together.
     #[must_use]
     pub fn edit(mut self, span: Span, text: impl Into<String>) -> Self {
         self.edits.push(Edit { span, text: text.into() });

@@ -21,7 +21,7 @@ impl Repeated {
         self.places == 0
     }
 
-    /// Adds a place with what puts it right there; `say` makes the message if the place is the first of the file.
+    /// Adds a place with what fixes it there; `say` makes the message if the place is the first of the file.
     pub(crate) fn add(
         &mut self,
         place: Span,

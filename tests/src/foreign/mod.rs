@@ -85,7 +85,7 @@ pub struct Checked {
     pub problems: Vec<Problem>,
     /// Findings when it is held to the standard.
     pub findings: Findings,
-    /// Changes that put it right.
+    /// Changes that fix it.
     pub changes: usize,
     /// Reasons of the differences that are as they should be, each with their number.
     pub excepted: Vec<(&'static str, usize)>,

@@ -173,7 +173,7 @@ fn settings_that_are_refused() {
         1 | 2002=101
           |      ^^^
           |
-        help: leave the entry out, as a PLC cannot write it; for a service, name it with `--unlock` or under `unlock:`
+        help: leave the entry out, because a PLC cannot write it; for service, name it with `--unlock` or under `unlock:`
         "#);
     insta::assert_snapshot!(settings(HEATER, "heater", &["1010.1=save"]), @r#"
         error[OD0707]: 1010h.1 (Save all parameters) must not be written by configuration tools
