@@ -8,6 +8,7 @@ mod configured;
 mod corpus;
 mod form;
 mod hostile;
+mod installed;
 mod manuals;
 mod package;
 mod parts;
