@@ -41,10 +41,8 @@ fn the_command_reads_and_writes_the_example_on_the_host() {
         String::from_utf8([output.stdout, output.stderr].concat()).unwrap()
     };
     assert_eq!(odgen("read", &["brightness"]), "2000h brightness = 80 %  [50]\n");
-    assert_eq!(
-        odgen("write", &["brightness=40", "--yes"]),
-        "2000h brightness: 80 % → 40 %  [50 → 28]\n1 value written and read back\n"
-    );
+    let written = odgen("write", &["brightness=40", "--yes"]);
+    assert!(written.contains("2000h brightness = 40 %  [28]"), "{written}");
     assert_eq!(said.next().unwrap(), "brightness 40 %");
     assert_eq!(odgen("read", &["brightness"]), "2000h brightness = 40 %  [28]\n");
 }
