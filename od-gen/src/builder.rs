@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use od_spec::Compiled;
 use od_spec::diag::render::{Format, render};
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
+use od_spec::file_name;
 use od_spec::model::Devices;
 use od_spec::source::SourceMap;
 
@@ -123,7 +124,7 @@ impl Builder {
     pub fn generate(&self) {
         let outcome = self.run();
         // A line break in a name would begin another instruction.
-        let names = outcome.read.iter().map(|path| path.display().to_string());
+        let names = outcome.read.iter().map(file_name::shown);
         for name in names.filter(|name| !name.contains(['\n', '\r'])) {
             println!("cargo::rerun-if-changed={name}");
         }

@@ -7,6 +7,7 @@ use od_spec::Compiled;
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::summary;
 use od_spec::eds::codes::SETTINGS_IN_EDS;
+use od_spec::file_name;
 use od_spec::model::SystemSource;
 use od_spec::visible::visible;
 
@@ -24,7 +25,7 @@ pub fn condense(path: &Path, compiled: &mut Compiled) -> Option<String> {
                 if stays { &mut stay } else { &mut short }.push(one.clone());
             }
             compiled.diagnostics = stay;
-            condensed(&path.to_string_lossy(), CHECK, &short)
+            condensed(&file_name::shown(path), CHECK, &short)
         }
     }
 }

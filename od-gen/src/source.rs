@@ -6,6 +6,7 @@ use std::io::{self, Read as _};
 use std::path::{Component, Path, PathBuf};
 
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::file_name;
 use od_spec::source::{FileId, SourceMap};
 use od_spec::xdd::Disabled;
 use od_spec::{
@@ -157,7 +158,7 @@ pub fn files_of_specifications_in(directory: &Path) -> io::Result<Vec<PathBuf>> 
 /// # Errors
 /// It cannot be read, which has the `help`, or is not a text.
 pub fn open(path: &Path, help: &str, sources: &mut SourceMap) -> Result<FileId, Box<Diagnostic>> {
-    let name = path.display().to_string();
+    let name = file_name::shown(path);
     let bytes = read_bytes(path).map_err(|reason| {
         Box::new(
             Diagnostic::without_place(codes::UNREADABLE, format!("cannot read {name}: {reason}")).help(help),
@@ -180,23 +181,27 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
+/// Why a file cannot be read, in words that are the same on every system where there is a word for it.
+pub fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a directory".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
 /// The bytes of a file that the user names, which may be a pipe.
 ///
 /// # Errors
 /// Why it cannot be read, in a few words.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, String> {
-    let describe = |error: io::Error| match error.kind() {
-        io::ErrorKind::NotFound => "no such file".to_owned(),
-        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
-        io::ErrorKind::IsADirectory => "it is a directory".to_owned(),
-        _ => error.to_string(),
-    };
-    let file = File::open(path).map_err(describe)?;
+    let file = File::open(path).map_err(|error| reason(&error))?;
     if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
         return Err("it is a directory".to_owned());
     }
     let mut bytes = Vec::new();
-    file.take(READ_LIMIT).read_to_end(&mut bytes).map_err(describe)?;
+    file.take(READ_LIMIT).read_to_end(&mut bytes).map_err(|error| reason(&error))?;
     Ok(bytes)
 }
 

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, Label, codes, shorten};
 use crate::encoding::Encoding;
+use crate::file_name;
 use crate::keys::{PART_OF, SPEC_VERSION};
 use crate::source::{FileId, SourceFile, SourceMap, Span, Spanned};
 use crate::xdd::Disabled;
@@ -87,7 +88,7 @@ pub(crate) fn read(
 
 /// The path of a file that is named relative to another, as messages show it.
 pub(crate) fn beside(from: &str, name: &str) -> String {
-    Path::new(from).parent().unwrap_or(Path::new("")).join(name).display().to_string()
+    file_name::shown(Path::new(from).parent().unwrap_or(Path::new("")).join(name))
 }
 
 /// A file is named a second time.

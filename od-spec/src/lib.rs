@@ -1,8 +1,8 @@
-//! The specification language for CANopen object dictionaries, its compiler and the resolved model.
+//! The specification language for CANopen object dictionaries: its compiler, its checks and the resolved model.
 //!
-//! One YAML file describes every object of one or several devices. [`compile()`] reads it together with the libraries it
-//! uses, checks it, and gives a [`model::System`] in which nothing is left open; backends print Rust, EDS, DCF and
-//! documentation from that. All mistakes of a file are reported in one run, each with its place (see [`diag`]).
+//! One YAML file describes every object of one or several devices. [`compile()`] reads it with the libraries that it
+//! uses, checks it, and returns a [`model::System`] in which nothing is left open. All mistakes of a file are reported in
+//! one run, each with its place and a stable code ([`diag`]).
 //!
 //! ```
 //! use od_spec::{compile, NoFiles, source::SourceMap};
@@ -21,6 +21,24 @@
 //! let lamp = &compiled.system.expect("no errors").devices[0];
 //! assert_eq!(lamp.objects.len(), 5); // 1000h, 1001h, 1017h, 1018h, 2000h
 //! ```
+//!
+//! EDS, DCF, XDD and XDC files give the same model: [`compile()`] takes them where it takes a specification. The crate
+//! opens no files: a [`Loader`] returns the bytes of the files that a specification names.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`model`] | what backends see: devices, objects, entries, types, PDOs, state machines, documents |
+//! | [`diag`], [`source`] | messages, their codes and places, and how they are printed |
+//! | [`eds`], [`xdd`] | the text of these files: rules, findings, repairs |
+//! | [`plant`] | the nodes of many machines, and their settings |
+//! | [`wording`], [`running_text`] | how values and facts read, in each language |
+//! | [`keys`], [`yaml`], [`names`] | keys, tree and names of a specification, for editors and references |
+//!
+//! # Features
+//!
+//! - `xdd`: XDD and XDC files as input
+
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod ast;
 mod catalogue;
@@ -60,7 +78,6 @@ pub use catalogue::{all_codes, code};
 pub use check::allowed::{can_be_allowed, is_rule};
 pub use check::codes as rule_codes;
 pub use check::departures::departures;
-pub use check::names::texts_fit_eds::problem as eds_text_problem;
 pub use check::values::start_values_are_allowed::start_of_code;
 pub use commissioning::{Commissioning, Denoted, DomainFiles, ParameterValues, TextOfNode, bit_rate};
 pub use compile::{Compiled, Strictness, compile, compile_as, compile_with_modules, is_specification};

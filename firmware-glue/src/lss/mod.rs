@@ -119,10 +119,13 @@ pub enum Reply {
     Failed,
 }
 
-/// The firmware's part.
+/// The firmware's part. A device that implements no method cannot switch its bit rate and cannot store.
 pub trait LssHandler {
     /// Whether the device has a bit rate. It is used only after [`LssEvent::Switch`].
-    fn has_bit_rate(&self, rate: BitRate) -> bool;
+    fn has_bit_rate(&self, rate: BitRate) -> bool {
+        let _ = rate;
+        false
+    }
 
     /// Keeps the node-ID, which counts from the next reset of the communication on, and the bit rate, if the master has set one, over power-off.
     fn store(&mut self, node: MaybeNode, rate: Option<BitRate>) -> Reply {
@@ -131,12 +134,7 @@ pub trait LssHandler {
     }
 }
 
-/// Cannot switch and cannot store.
-impl LssHandler for () {
-    fn has_bit_rate(&self, _: BitRate) -> bool {
-        false
-    }
-}
+impl LssHandler for () {}
 
 impl<A: LssHandler> LssHandler for Consistent<'_, A> {
     fn has_bit_rate(&self, rate: BitRate) -> bool {

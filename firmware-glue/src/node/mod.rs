@@ -9,6 +9,7 @@
 //! use firmware_glue::clock::Instant;
 //! use firmware_glue::frame::{CanId, Frame};
 //! use firmware_glue::nmt::State;
+//! use firmware_glue::node::{Room, UpTo};
 //! use firmware_glue::{Node, NodeId};
 //! # const TIME: Attributes = Attributes {
 //! #     data_type: DataType::Unsigned16, flags: Flags::READ.with(Flags::WRITE), place: Place::Image,
@@ -22,8 +23,14 @@
 //! # })?;
 //! # let mut dictionary = TableDictionary::new(&table, [0; 2], 1)?;
 //!
-//! // 4 TPDOs, 4 RPDOs, 8 errors at once, 2 nodes watched; a buffer for values that SDO reads and writes.
-//! let mut node = Node::<_, 4, 4, 8, 2>::new(&table, NodeId::new(5), [0; 64])?;
+//! let room = Room {
+//!     tpdos: UpTo::<4>,
+//!     rpdos: UpTo::<4>,
+//!     errors: UpTo::<8>,
+//!     watched: UpTo::<2>,
+//!     sdo_buffer: [0; 64],
+//! };
+//! let mut node = Node::new(&table, NodeId::new(5), room)?;
 //! let boot_up = node.poll(&mut dictionary, &mut (), Instant::from_millis(10));
 //! assert_eq!(boot_up.map(|frame| frame.id().get()), Some(0x705));
 //!
@@ -39,7 +46,7 @@ mod room;
 mod tests;
 
 pub use handler::{Event, NodeHandler, Reset};
-pub use room::NoRoom;
+pub use room::{NoRoom, Room, UpTo};
 
 use crate::access::dictionary::Dictionary;
 use crate::bus::clock::{Instant, earlier};
@@ -57,9 +64,8 @@ use crate::sync::{Sync, SyncProducer};
 use crate::table::stored::reset;
 use crate::table::{Region, Storage, Table};
 
-/// A node with up to `T` TPDOs, `R` RPDOs, `ERRORS` errors at once, of which up to five are its own (see [`raise`](Self::raise)), and `WATCHED`
-/// nodes whose heartbeats it hears. The buffer `B` is that of its
-/// SDO server, of `LARGEST_VALUE` bytes.
+/// A node with up to `T` TPDOs, `R` RPDOs, `ERRORS` errors at the same time and `WATCHED` monitored nodes. [`Room`] names these
+/// numbers, and the buffer `B` of the SDO server.
 #[derive(Debug)]
 pub struct Node<B, const T: usize, const R: usize, const ERRORS: usize, const WATCHED: usize> {
     nmt: Nmt,
@@ -83,7 +89,11 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
     ///
     /// # Errors
     /// [`NoRoom`] when the dictionary has more than `T` TPDOs or `R` RPDOs, or watches more than `WATCHED` nodes.
-    pub fn new(table: &Table<'_>, id: MaybeNode, buffer: B) -> Result<Self, NoRoom> {
+    pub fn new(
+        table: &Table<'_>,
+        id: MaybeNode,
+        room: Room<B, T, R, ERRORS, WATCHED>,
+    ) -> Result<Self, NoRoom> {
         let watched = watchable(table);
         if watched > WATCHED {
             return Err(NoRoom::Watched(watched));
@@ -96,7 +106,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
             pdos: PdoEngine::new(table).map_err(NoRoom::Pdos)?,
             sync: SyncProducer::new(),
             emergencies: EmergencyProducer::new(),
-            sdo: SdoServer::new(NO_CHANNEL, buffer),
+            sdo: SdoServer::new(NO_CHANNEL, room.sdo_buffer),
             lss: Lss::new(id),
             id,
         })

@@ -56,6 +56,10 @@ struct Bench {
     heard: Heard,
 }
 
+const fn room<const T: usize>(tpdos: UpTo<T>) -> Room<[u8; 16], T, 2, 4, 2> {
+    Room { tpdos, rpdos: UpTo, errors: UpTo, watched: UpTo, sdo_buffer: [0; 16] }
+}
+
 /// Entries of the node's dictionary.
 fn values() -> Vec<TestValue> {
     let mut values = vec![
@@ -95,7 +99,7 @@ impl Bench {
     fn of(mut values: Vec<TestValue>, node: u8) -> Self {
         values.sort_by_key(TestValue::id);
         let dictionary = dictionary(&values);
-        let node = Node::new(dictionary.table(), NodeId::new(node), [0; 16]).expect("two of each");
+        let node = Node::new(dictionary.table(), NodeId::new(node), room(UpTo)).expect("two of each");
         Self { dictionary, node, heard: Heard::default() }
     }
 
@@ -297,10 +301,10 @@ fn a_dictionary_that_watches_more_nodes_than_there_is_room_for_has_no_node() {
         values.retain(|value| value.id().0 != 0x1016);
         values.extend((0..=nodes).map(|sub| value(0x1016, sub, if sub == 0 { 1 } else { 4 }, 0)));
         values.sort_by_key(TestValue::id);
-        Node::<_, 2, 2, 4, 2>::new(dictionary(&values).table(), NodeId::new(5), [0; 16]).map(drop)
+        Node::new(dictionary(&values).table(), NodeId::new(5), room(UpTo::<2>)).map(drop)
     };
     assert_eq!((watching(2), watching(3)), (Ok(()), Err(NoRoom::Watched(3))));
-    let pdos = Node::<_, 0, 2, 4, 2>::new(Bench::new(5).dictionary.table(), None, [0; 16]).map(drop);
+    let pdos = Node::new(Bench::new(5).dictionary.table(), None, room(UpTo::<0>)).map(drop);
     assert_eq!(pdos, Err(NoRoom::Pdos(TooManyPdos { transmit: 1, receive: 1 })));
 }
 

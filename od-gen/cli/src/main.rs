@@ -41,6 +41,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 #[derive(Debug, Parser)]
 #[command(
     name = "odgen",
+    bin_name = "odgen",
     version,
     after_help = "Exit codes: 0 fine, 1 errors in the input or output not written, 2 wrong command line, \
                   3 what `odgen diff --exit-code` looks for, or `odgen node compare` finds.\n\

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use od_gen::Artifact;
 use od_gen::files::{Existing, Outcome, Reason, WriteError, write_durable, write_set};
 use od_spec::diag::{Diagnostic, codes};
+use od_spec::file_name;
 
 use crate::report::{Report, print, shown};
 
@@ -67,7 +68,7 @@ pub(crate) fn overwritten(out: &Path, set: &[Artifact], read: &[PathBuf]) -> Opt
     paths
         .into_iter()
         .find(|path| fs::canonicalize(path).is_ok_and(|path| read.contains(&path)))
-        .map(|path| path.display().to_string())
+        .map(file_name::shown)
 }
 
 fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {
@@ -86,7 +87,7 @@ fn list(out: &Path, set: &[Artifact], outcomes: &[Outcome]) -> String {
 /// The name of the file to write, which is not one of those that were read.
 pub(crate) fn file_name(path: &Path, what: &str, read: &[PathBuf]) -> Result<String, Diagnostic> {
     let refuse = |problem: &str, help: &str| {
-        let message = format!("cannot write `{}`: {problem}", path.display());
+        let message = format!("cannot write `{}`: {problem}", file_name::shown(path));
         Err(Diagnostic::without_place(codes::WRITE_FAILED, message).help(help.to_owned()))
     };
     let Some(name) = path.file_name() else {

@@ -12,6 +12,7 @@ use od_spec::diag::render;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::eds::codes::UNKNOWN_MODULE;
 use od_spec::eds::is_eds;
+use od_spec::file_name;
 use od_spec::model::{Dictionary, System};
 use od_spec::source::SourceMap;
 use od_spec::visible::{printable, visible, visible_json};
@@ -113,7 +114,9 @@ impl Report {
 
     /// Writes messages that are text already.
     pub(crate) fn write(&self, text: &str) {
-        let _ = std::io::stderr().write_all(printable(text, self.colour).as_bytes());
+        // A console of Windows shows colours only after it was asked to.
+        let mut out = anstream::AutoStream::always(std::io::stderr());
+        let _ = out.write_all(printable(text, self.colour).as_bytes());
     }
 
     /// Writes what is wrong and, for people, how much it is; notes are for `odgen check --notes`.
@@ -150,7 +153,7 @@ impl Report {
     pub(crate) fn show_used(&self, path: &Path, check: &str, diagnostics: &Diagnostics, sources: &SourceMap) {
         match (self.shows, self.audience()) {
             (Shows::Count, Audience::People) if !diagnostics.has_errors() => {
-                let counted = condensed(&path.to_string_lossy(), check, &diagnostics.clone().without_notes());
+                let counted = condensed(&file_name::shown(path), check, &diagnostics.clone().without_notes());
                 if let Some(line) = counted {
                     self.note(&line);
                 }
@@ -319,7 +322,7 @@ pub(crate) fn print_file(text: &str) -> u8 {
 
 /// A path on one line.
 pub(crate) fn shown(path: &Path) -> String {
-    visible(&path.to_string_lossy()).into_owned()
+    visible(&file_name::shown(path)).into_owned()
 }
 
 fn write_out(bytes: &[u8]) -> u8 {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use od_documents::{TemplateError, Templates};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::file_name;
 use od_spec::source::SourceMap;
 
 use crate::exit::ERRORS;
@@ -70,10 +71,8 @@ impl Problem {
                 match error {
                     TemplateError::InTemplate { template, source, range, message } => {
                         let replaced = directory.map(|own| own.join(&template)).filter(|path| path.exists());
-                        let name = replaced.map_or_else(
-                            || format!("(built-in) {template}"),
-                            |path| path.display().to_string(),
-                        );
+                        let name =
+                            replaced.map_or_else(|| format!("(built-in) {template}"), file_name::shown);
                         let mut sources = SourceMap::new();
                         let file = sources.add(name, source);
                         let span = sources.whole(file).part(range.start, range.end.max(range.start + 1));
@@ -127,7 +126,7 @@ fn extension(name: &str) -> Option<&str> {
 /// Name and text of the files of a directory.
 fn read(directory: &Path) -> Result<Vec<(String, String)>, Problem> {
     let problem = |path: &Path, error: &dyn std::fmt::Display| {
-        Problem::Unreadable(format!("cannot read {}: {error}", path.display()))
+        Problem::Unreadable(format!("cannot read {}: {error}", file_name::shown(path)))
     };
     let mut files = Vec::new();
     for entry in fs::read_dir(directory).map_err(|error| problem(directory, &error))? {
@@ -139,7 +138,10 @@ fn read(directory: &Path) -> Result<Vec<(String, String)>, Problem> {
         }
     }
     if files.is_empty() {
-        return Err(Problem::Unreadable(format!("there are no templates in {}", directory.display())));
+        return Err(Problem::Unreadable(format!(
+            "there are no templates in {}",
+            file_name::shown(directory)
+        )));
     }
     files.sort();
     Ok(files)

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use lsp_types::Uri;
 use od_gen::source::plain;
 
+use od_spec::file_name;
+
 use super::copies;
 use super::uri::path_of;
 
@@ -46,7 +48,7 @@ impl Place {
     /// What the compiler calls it.
     pub(super) fn name(&self) -> String {
         match self {
-            Place::File(path) => path.display().to_string(),
+            Place::File(path) => file_name::shown(path),
             Place::Library(name) => format!("<{name}>"),
             Place::Elsewhere(uri) => uri.clone(),
         }

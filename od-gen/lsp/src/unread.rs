@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use od_spec::file_name;
 use od_spec::source::{FileId, SourceMap};
 use od_spec::yaml::{self, Node};
 use od_spec::{LIBRARIES, Loader, read_text};
@@ -16,8 +17,7 @@ pub(super) fn add(sources: &mut SourceMap, root: FileId, loader: &mut dyn Loader
         items.iter().filter_map(|item| Some(item.text()?.value.to_owned())).collect()
     };
     let mut load = |name: &str| read_text(name, loader.load(name, &from).ok()?).ok();
-    let beside =
-        |name: &str| Path::new(&from).parent().unwrap_or(Path::new("")).join(name).display().to_string();
+    let beside = |name: &str| file_name::shown(Path::new(&from).parent().unwrap_or(Path::new("")).join(name));
     for part in names("parts") {
         if let Some(text) = load(&part) {
             sources.add_part(beside(&part), text, root);

@@ -19,6 +19,8 @@ pub use self::names::{clash, name_problem};
 
 use self::change::{Change, target};
 use self::disk::{Disk, Durability, Real, sweep};
+use od_spec::file_name;
+
 use crate::artifact::{Artifact, OutputFile};
 
 /// What happened to one file.
@@ -73,7 +75,7 @@ pub enum Reason {
 
 impl std::fmt::Display for WriteError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let path = self.path.display();
+        let path = file_name::shown(&self.path);
         let all = |more: &[PathBuf]| named(std::iter::once(&self.path).chain(more));
         match &self.reason {
             Reason::Io(error) if self.written.is_empty() => write!(f, "cannot write {path}: {error}"),
@@ -95,7 +97,7 @@ impl std::fmt::Display for WriteError {
             }
             Reason::Name(problem) => write!(f, "cannot write {path}: {problem}"),
             Reason::Clash(other) => {
-                let other = other.display();
+                let other = file_name::shown(other);
                 write!(f, "cannot write both {path} and {other}: some systems take both names for one")
             }
         }
@@ -106,7 +108,7 @@ impl std::fmt::Display for WriteError {
 fn named<'a>(files: impl IntoIterator<Item = &'a PathBuf>) -> String {
     /// So many files are named.
     const NAMED: usize = 5;
-    let mut names: Vec<String> = files.into_iter().map(|path| path.display().to_string()).collect();
+    let mut names: Vec<String> = files.into_iter().map(file_name::shown).collect();
     let more = names.len().saturating_sub(NAMED);
     names.truncate(NAMED);
     let names = names.join(", ");

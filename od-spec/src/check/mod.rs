@@ -34,9 +34,6 @@ mod tests;
 
 /// Codes of rules that others know by name: reading and looking up report some as well, and what is made of a file depends on some.
 pub mod codes {
-    pub use super::access::locks_guard_writing::CODE as USELESS_LOCK;
-    pub use super::communication::bit_rates_are_standard::CODE as NO_STANDARD_BIT_RATE;
-    pub use super::communication::bit_rates_exist::CODE as NO_BIT_RATE;
     pub(crate) use super::communication::cob_ids_are_unrestricted::CODE as BAD_COB_ID;
     pub use super::device::vendor_has_a_number::CODE as NO_VENDOR_NUMBER;
     pub use super::drives::drive_modes_have_their_objects::CODE as MODE_WITHOUT_OBJECTS;
@@ -46,24 +43,16 @@ pub mod codes {
     pub use super::names::names_fit_eds::CODE as NAME_NOT_FOR_EDS;
     pub(crate) use super::names::names_keep_their_characters::CODE as NAME_WITHOUT_FORM;
     pub use super::names::texts_fit_eds::CODE as NOT_FOR_EDS;
-    pub use super::pdo::granularity_fits_mapping::CODE as GRANULARITY_DIFFERS;
-    pub use super::pdo::mappable_types_have_a_length::CODE as NO_LENGTH;
     pub use super::pdo::mapped_entries_are_mappable::CODE as NOT_MAPPABLE;
-    pub use super::pdo::mapping_follows_access::CODE as MAPPING_AGAINST_ACCESS;
-    pub use super::pdo::pdo_parameters_agree::CODE as PDO_PARAMETERS_DIFFER;
     pub use super::settings::commands_are_not_downloaded::CODE as IS_COMMAND;
     pub(crate) use super::settings::locked_entries_are_not_set::CODE as LOCKED;
     pub use super::settings::set_entries_are_writable::CODE as NOT_WRITABLE;
     pub use super::settings::settings_have_an_order::CODE as NO_ORDER;
     pub use super::settings::write_conditions_are_met::CODE as NOT_NOW;
-    pub use super::storage::constants_are_not_stored::CODE as STORED_CONSTANT;
-    pub use super::structure::arrays_have_one_type::CODE as MIXED_TYPES;
-    pub use super::structure::counts_agree::CODE as COUNT_MISMATCH;
+    pub(crate) use super::structure::counts_agree::CODE as COUNT_MISMATCH;
     pub use super::structure::elements_are_alike::CODE as UNLIKE_ELEMENTS;
-    pub use super::structure::indices_in_object_areas::CODE as OUTSIDE_AREAS;
-    pub use super::values::limits_in_order::CODE as SWAPPED_LIMITS;
     pub use super::values::value_fits_type::CODE as VALUE_DOES_NOT_FIT;
-    pub use super::values::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;
+    pub(crate) use super::values::value_in_enum::CODE as UNKNOWN_ENUM_VALUE;
     pub(crate) use super::values::value_within_limits::CODE as OUTSIDE_LIMITS;
 }
 

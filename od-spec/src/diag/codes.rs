@@ -5,18 +5,26 @@ use super::{Code, Example, Severity};
 
 macro_rules! codes {
     ($($name:ident $severity:ident $(/ $foreign:ident)? $id:literal $title:literal: $explanation:literal $([$example:expr])?)+) => {
-        $(
-            #[doc = $title]
-            pub const $name: &Code = &Code {
-                id: $id,
-                severity: Severity::$severity,
-                foreign: codes!(@foreign $severity $($foreign)?),
-                title: $title,
-                explanation: $explanation,
-                clause: None,
-                example: codes!(@example $($example)?),
-            };
-        )+
+        /// Every code; which of them other crates see is listed below.
+        #[allow(unreachable_pub, reason = "the list below says which are public")]
+        mod every {
+            use super::*;
+
+            $(
+                #[doc = $title]
+                pub const $name: &Code = &Code {
+                    id: $id,
+                    severity: Severity::$severity,
+                    foreign: codes!(@foreign $severity $($foreign)?),
+                    title: $title,
+                    explanation: $explanation,
+                    clause: None,
+                    example: codes!(@example $($example)?),
+                };
+            )+
+        }
+
+        pub(crate) use every::*;
 
         /// All of them, ascending.
         pub(crate) const ALL: &[&Code] = &[$($name,)+];
@@ -381,3 +389,12 @@ codes! {
             "<parameterList>\n  <parameter uniqueID=\"UID_1\"><USINT/></parameter>\n</parameterList>\n<CANopenObjectList>\n  <CANopenObject index=\"2000\" name=\"level\" objectType=\"7\" dataType=\"0005\" accessType=\"rw\" uniqueIDRef=\"UID_1\"/>\n</CANopenObjectList>"
         )]
 }
+
+// The codes that backends, commands and tests name.
+pub use every::{
+    ACCESS_FAILED, BAD_ASSIGNMENT, BAD_NODE_ID, BAD_NOTATION, BAD_TEMPLATE, BAD_TRACE_LINE, BAD_VALUE,
+    CONCISE_CUT_OFF, CONCISE_TOO_LONG, DEPARTURE, IDENTIFIER_CLASH, NO_CAPACITY, NO_CONNECTION,
+    NO_IDENTIFIER, NO_TERMINAL, NOT_A_LIBRARY, NOT_A_PART, NOT_IN_FIRMWARE, NOT_UTF8, OTHER_BUS,
+    OTHER_DEVICE, SET_TWICE, STACK_DIFFERS, STACK_REFUSES, TOO_LARGE, TURNED_TEXT, UNKNOWN_DEVICE,
+    UNKNOWN_ENTRY, UNKNOWN_KEY, UNKNOWN_WORD, UNREADABLE, WRITE_FAILED, XDD_DISABLED, XDD_LEFT_OUT,
+};

@@ -6,18 +6,26 @@ use crate::diag::{Code, Severity};
 
 macro_rules! codes {
     ($($name:ident $severity:ident $foreign:ident $id:literal $clause:literal $title:literal: $explanation:literal)+) => {
-        $(
-            #[doc = $title]
-            pub const $name: &Code = &Code {
-                id: $id,
-                severity: Severity::$severity,
-                foreign: Severity::$foreign,
-                title: $title,
-                explanation: $explanation,
-                clause: Some($clause),
-                example: None,
-            };
-        )+
+        /// Every code; which of them other crates see is listed below.
+        #[allow(unreachable_pub, reason = "the list below says which are public")]
+        mod every {
+            use super::*;
+
+            $(
+                #[doc = $title]
+                pub const $name: &Code = &Code {
+                    id: $id,
+                    severity: Severity::$severity,
+                    foreign: Severity::$foreign,
+                    title: $title,
+                    explanation: $explanation,
+                    clause: Some($clause),
+                    example: None,
+                };
+            )+
+        }
+
+        pub(crate) use every::*;
 
         /// All of them, ascending.
         pub(crate) const ALL: &[&Code] = &[$($name,)+];
@@ -82,3 +90,6 @@ codes! {
     LIMIT_ON_TYPE Warning Warning "EDS513" "CiA 306 4.6.3.2" "a limit where none can be":
         "Only numbers have limits. Those of texts, byte blocks and BOOLEANs are left out."
 }
+
+// The codes that backends, commands and tests name.
+pub use every::{MODULES, NO_PLACE, OBJECT_LEFT_OUT, OCTAL};

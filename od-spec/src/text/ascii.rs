@@ -34,18 +34,18 @@ pub fn in_ascii(text: &str) -> Cow<'_, str> {
 /// Whether characters of a text have no transcription, so that [`transliterate`] has a `?` in place of each.
 ///
 /// Those that turn the text around them are refused for that.
-pub fn has_lost(text: &str) -> bool {
+pub(crate) fn has_lost(text: &str) -> bool {
     !is_printable(text)
         && in_ascii(text).matches('?').count() > text.matches('?').count() + turning(text).count()
 }
 
 /// Whether [`transliterate`] leaves nothing of a name but `?`.
-pub fn has_no_form(name: &str) -> bool {
+pub(crate) fn has_no_form(name: &str) -> bool {
     has_lost(name) && in_ascii(name).chars().all(|c| matches!(c, '?' | ' '))
 }
 
 /// The name of an object or entry in ASCII; `otherwise` replaces one that has no form in it.
-pub fn name_in_ascii(name: &str, otherwise: impl FnOnce() -> String) -> Cow<'_, str> {
+pub(crate) fn name_in_ascii(name: &str, otherwise: impl FnOnce() -> String) -> Cow<'_, str> {
     if has_no_form(name) { Cow::Owned(otherwise()) } else { in_ascii(name) }
 }
 

@@ -1,4 +1,17 @@
-//! Names that no file can have on some system.
+//! Names of files on every system.
+
+use std::path::Path;
+
+/// A path as messages show it: with `/` between its parts on every system, so that a message is the same on all of them.
+/// Windows takes both separators, except in a path that begins with `\\?\`.
+pub fn shown(path: impl AsRef<Path>) -> String {
+    let text = path.as_ref().display().to_string();
+    if cfg!(windows) { with_slashes(text) } else { text }
+}
+
+fn with_slashes(text: String) -> String {
+    if text.starts_with(r"\\?\") { text } else { text.replace('\\', "/") }
+}
 
 /// `CON`, `NUL`, `COM1`: names that no file can have on Windows, whatever the ending.
 pub fn is_device(name: &str) -> bool {
@@ -10,4 +23,21 @@ pub fn is_device(name: &str) -> bool {
     matches!(name.as_str(), "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$")
         || numbered("COM")
         || numbered("LPT")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_paths_have_one_kind_of_separator() {
+        for (path, shown) in [
+            (r"out\eds/lamp.eds", "out/eds/lamp.eds"),
+            (r"C:\specs\lamp.od.yaml", "C:/specs/lamp.od.yaml"),
+            (r"\\server\share\a.eds", "//server/share/a.eds"),
+            (r"\\?\C:\long\a.eds", r"\\?\C:\long\a.eds"),
+        ] {
+            assert_eq!(with_slashes(path.to_owned()), shown);
+        }
+    }
 }

@@ -5,12 +5,12 @@ use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// Whether a character makes the text around it run from right to left, or back: what is read is not what is written.
-pub const fn turns_text(c: char) -> bool {
+pub(crate) const fn turns_text(c: char) -> bool {
     matches!(c, '\u{61C}' | '\u{200E}' | '\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
 }
 
 /// The characters of a text that turn what is around them, each with its place. In UTF-8, they begin with one of two bytes.
-pub fn turning(text: &str) -> impl Iterator<Item = (usize, char)> {
+pub(crate) fn turning(text: &str) -> impl Iterator<Item = (usize, char)> {
     let at = memchr::memchr2_iter(0xD8, 0xE2, text.as_bytes());
     at.filter_map(|at| Some((at, text[at..].chars().next().filter(|c| turns_text(*c))?)))
 }

@@ -1,6 +1,7 @@
 //! Nodes on a bus, and dictionaries that are made at run time.
 
 mod demo_slcan;
+mod host_node;
 mod live_dictionary;
 mod run_time_table;
 mod sdo;

@@ -13,6 +13,7 @@ mod nasty;
 mod pdos_in_full;
 mod physical;
 mod readme;
+mod release;
 mod runs;
 mod state_machines;
 

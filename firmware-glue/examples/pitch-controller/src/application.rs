@@ -5,7 +5,7 @@
 
 use firmware_glue::clock::{Duration, Instant};
 use firmware_glue::emcy::Emergency;
-use firmware_glue::lss::{BitRate, LssHandler};
+use firmware_glue::lss::LssHandler;
 use firmware_glue::node::{NodeHandler, Reset};
 use firmware_glue::pdo::engine::PdoHandler;
 use firmware_glue::state_machine::{Cause, StateHandler, StateMachine};
@@ -204,11 +204,7 @@ impl Application<Pmc> for Drive<'_> {
 impl PdoHandler<Pmc> for Drive<'_> {}
 
 /// This device has no LSS; the main loop shows the node no request of it.
-impl LssHandler for Drive<'_> {
-    fn has_bit_rate(&self, _: BitRate) -> bool {
-        false
-    }
-}
+impl LssHandler for Drive<'_> {}
 
 impl NodeHandler<Pmc> for Drive<'_> {
     fn restart(&mut self, od: &mut Pmc, node: NodeId, reset: Reset) {

@@ -24,6 +24,7 @@ mod pmc {
 use cortex_m_rt::entry;
 use embedded_can::nb::Can;
 use firmware_glue::frame::Frame;
+use firmware_glue::node::{Room, UpTo};
 use firmware_glue::{Dictionary, Node, NodeId};
 use panic_halt as _;
 
@@ -58,11 +59,14 @@ fn main() -> ! {
 /// The node, with any CAN driver. It comes back only if the dictionary has more PDOs than the node has room for.
 fn run<C: Can>(mut can: C, mut clock: Clock, mut drive: Drive<'_>) {
     let mut od = Pmc::new(NODE_ID);
-    // 4 TPDOs, 4 RPDOs, 16 errors at once; no other node is watched.
-    let Ok(mut node) = Node::<_, 4, 4, 16, 0>::new(od.table(), NodeId::new(NODE_ID), [0; Pmc::LARGEST_VALUE])
-    else {
-        return;
+    let room = Room {
+        tpdos: UpTo::<4>,
+        rpdos: UpTo::<4>,
+        errors: UpTo::<16>,
+        watched: UpTo::<0>,
+        sdo_buffer: [0; Pmc::LARGEST_VALUE],
     };
+    let Ok(mut node) = Node::new(od.table(), NodeId::new(NODE_ID), room) else { return };
     // A frame that the driver has not taken yet.
     let mut waiting: Option<Frame> = None;
     let mut shown = (od.statusword(), od.position_actual_value());

@@ -10,7 +10,7 @@ use crate::table::entry::EntryId;
 pub enum Copies {
     /// None: nothing was stored, or everything is lost.
     None,
-    /// One; [`ParameterStore::repair`] makes it two.
+    /// One; [`ParameterStore::repair`](super::ParameterStore::repair) makes it two.
     One,
     /// Both.
     Both,

@@ -110,7 +110,7 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
     }
 
     /// Puts groups to the values that hold after a reset: the stored ones, else the factory's for the node-ID. At power-on and
-    /// "reset node" that is [`ALL`], at "reset communication" [`Storage::Communication`]. Values that follow another node-ID than this one are not taken;
+    /// "reset node" that is [`ALL`](crate::storage::ALL), at "reset communication" [`Storage::Communication`]. Values that follow another node-ID than this one are not taken;
     /// a group without such values is the same for every node-ID.
     pub fn load<'t, D: Dictionary<'t>>(
         &mut self,

@@ -7,7 +7,7 @@ use firmware_glue::emcy::{Emergency, Raised};
 use firmware_glue::frame::Frame;
 use firmware_glue::lss;
 use firmware_glue::nmt::{Service, State};
-use firmware_glue::node::NoRoom;
+use firmware_glue::node::{NoRoom, Room, UpTo};
 use firmware_glue::sdo::{Channel, SdoServer};
 use firmware_glue::{AbortCode, Dictionary, EntryId, Node, NodeId};
 
@@ -68,8 +68,9 @@ impl<'t> VirtualNode<'t> {
     pub fn new(id: u8, dictionary: LiveDictionary<'t>) -> Result<Self, NoNode> {
         let id = NodeId::new(id).ok_or(NoNode::NodeId)?;
         let table = dictionary.table();
-        let buffer = vec![0; table.largest_value()];
-        let node = Box::new(Node::new(table, Some(id), buffer).map_err(NoNode::Room)?);
+        let sdo_buffer = vec![0; table.largest_value()];
+        let room = Room { tpdos: UpTo, rpdos: UpTo, errors: UpTo, watched: UpTo, sdo_buffer };
+        let node = Box::new(Node::new(table, Some(id), room).map_err(NoNode::Room)?);
         Ok(Self { node, host: Host::new(&dictionary), dictionary, further: Vec::new() })
     }
 

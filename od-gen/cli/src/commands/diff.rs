@@ -9,6 +9,7 @@ use clap::{Args, ValueEnum};
 use od_diff::{Difference, Question, Scope, Unpaired, compare, human, json, markdown, short};
 use od_gen::source::read_file;
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::file_name;
 use od_spec::{Commissioning, NodeOfFile, assign_layers, is_parameter_file};
 
 use crate::exit::{DIFFERS, ERRORS};
@@ -157,7 +158,8 @@ fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
 /// The node that a parameter file settles, as a DCF made of it would.
 fn configured(path: &Path, args: &DiffArgs, report: &Report) -> Result<Used, u8> {
     let Some(spec) = &args.spec else {
-        let message = format!("{} is a parameter file, and no specification is named", path.display());
+        let message =
+            format!("{} is a parameter file, and no specification is named", file_name::shown(path));
         return Err(report.refuse(
             Diagnostic::without_place(codes::UNREADABLE, message)
                 .help("add `--spec SPEC`, the specification of the device that it is for"),

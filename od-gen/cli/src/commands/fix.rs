@@ -11,6 +11,7 @@ use od_gen::files::replace;
 use od_lsp::line_diff::line_diff;
 use od_spec::diag::{Code, Diagnostic, codes};
 use od_spec::eds::Document;
+use od_spec::file_name;
 use od_spec::source::SourceMap;
 use od_spec::visible::visible;
 use od_spec::{Fixed, add_source, fix};
@@ -74,22 +75,22 @@ struct File {
 }
 
 fn read(path: &PathBuf) -> Result<File, Box<Diagnostic>> {
-    let shown = path.display();
+    let shown = file_name::shown(path);
     let refuse = |message: String, help: &str| {
         Box::new(Diagnostic::without_place(codes::UNREADABLE, message).help(help))
     };
     let bytes = fs::read(path)
         .map_err(|error| refuse(format!("cannot read `{shown}`: {error}"), "check name and permissions"))?;
-    let Some(name) = path.to_str() else {
+    if path.to_str().is_none() {
         return Err(refuse(format!("`{shown}` has a name that is not UTF-8"), "rename the file"));
-    };
+    }
     let mut sources = SourceMap::new();
-    let file = add_source(&mut sources, name, bytes.clone())?;
+    let file = add_source(&mut sources, &shown, bytes.clone())?;
     let old = sources.file(file).text();
     if Document::scan(file, old).sections().next().is_none() {
         return Err(refuse(format!("`{shown}` has no section, it is no EDS or DCF"), "name an EDS or DCF"));
     }
-    Ok(File { name: name.to_owned(), old: old.to_owned(), fixed: fix(name, &bytes)? })
+    Ok(File { old: old.to_owned(), fixed: fix(&shown, &bytes)?, name: shown })
 }
 
 impl File {

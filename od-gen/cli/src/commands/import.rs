@@ -9,6 +9,7 @@ use od_gen::files::Existing;
 use od_gen::source::compile_file;
 use od_import::{Imported, import};
 use od_spec::diag::{Diagnostic, codes};
+use od_spec::file_name;
 use od_spec::source::SourceMap;
 use od_spec::visible::visible;
 
@@ -76,7 +77,7 @@ fn one(path: &Path, report: &Report) -> Option<(Artifact, String)> {
         if compiled.diagnostics.has_errors() {
             report.show(&compiled.diagnostics, &sources);
         } else {
-            let message = format!("{} is no EDS, DCF, XDD or XDC", path.display());
+            let message = format!("{} is no EDS, DCF, XDD or XDC", file_name::shown(path));
             report.refuse(
                 Diagnostic::without_place(codes::UNREADABLE, message)
                     .help("import takes EDS, DCF, XDD and XDC files"),

@@ -8,6 +8,7 @@ use od_gen::files::Existing;
 use od_import::parameters::{About, ParameterText, Transferred, transfer, write};
 use od_spec::Commissioning;
 use od_spec::diag::{Diagnostic, codes};
+use od_spec::file_name;
 use od_spec::model::Dictionary;
 
 use crate::exit::ERRORS;
@@ -80,7 +81,7 @@ fn params(args: &ParamsArgs, report: &Report) -> Result<u8, u8> {
     }
     let Some(out) = &args.out else { return Ok(print_file(&text)) };
     let name = out.file_name().and_then(|name| name.to_str()).ok_or_else(|| {
-        let message = format!("cannot write `{}`: it names no file", out.display());
+        let message = format!("cannot write `{}`: it names no file", shown(out));
         report.refuse(Diagnostic::without_place(codes::WRITE_FAILED, message).help("write the file's name"))
     })?;
     let directory = out.parent().unwrap_or(Path::new(""));
@@ -95,7 +96,7 @@ fn params(args: &ParamsArgs, report: &Report) -> Result<u8, u8> {
 fn dcf<'a>(file: &'a Used, path: &Path) -> Result<(&'a Dictionary, Commissioning), Diagnostic> {
     let device = file.system.devices.first();
     device.zip(file.node.as_ref().map(|node| node.at(None))).ok_or_else(|| {
-        let message = format!("{} is no DCF", path.display());
+        let message = format!("{} is no DCF", file_name::shown(path));
         Diagnostic::without_place(codes::UNREADABLE, message)
             .help("name a DCF: a specification and an EDS hold no values of a node")
     })

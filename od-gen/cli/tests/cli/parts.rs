@@ -33,6 +33,23 @@ fn outputs_are_those_of_one_file() {
 }
 
 #[test]
+fn line_ends_of_windows_change_nothing() {
+    let (unix, windows) = (lamp_in_parts("unix-parts"), lamp_in_parts("windows-parts"));
+    for name in ["lamp.od.yaml", "parts/objects.od.yaml"] {
+        let text = std::fs::read_to_string(windows.0.join(name)).unwrap();
+        windows.file(name, text.replace('\n', "\r\n"));
+    }
+    for scratch in [&unix, &windows] {
+        let output = odgen(&scratch.0, &["build", "--rust", "--docs", "md", "--node", "5", "--out", "out"]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+    }
+    for name in files(&unix.0.join("out")) {
+        let read = |scratch: &Scratch| std::fs::read(scratch.0.join("out").join(&name)).unwrap();
+        assert!(read(&windows) == read(&unix), "{name}");
+    }
+}
+
+#[test]
 fn a_part_represents_its_specification() {
     let scratch = lamp_in_parts("part");
     let part = "parts/objects.od.yaml";

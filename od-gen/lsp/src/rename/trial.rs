@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use od_readers::remark;
 use od_spec::diag::{Diagnostic, Diagnostics};
+use od_spec::file_name;
 use od_spec::names::{DefinitionId, Names};
 use od_spec::source::{FileId, SourceFile, SourceMap, Span};
 use od_spec::yaml::Node;
@@ -22,7 +23,7 @@ struct Texts {
 
 impl Loader for Texts {
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String> {
-        let name = Path::new(from).parent().unwrap_or(Path::new("")).join(path).display().to_string();
+        let name = file_name::shown(Path::new(from).parent().unwrap_or(Path::new("")).join(path));
         self.by_name.get(&name).map(|text| text.clone().into_bytes()).ok_or_else(|| "no such file".to_owned())
     }
 

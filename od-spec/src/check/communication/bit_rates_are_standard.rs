@@ -9,7 +9,7 @@ use crate::model::{BIT_RATES, Fact};
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Device(check) };
 
 /// The code of the rule.
-pub const CODE: &Code = &Code {
+const CODE: &Code = &Code {
     id: "OD0601",
     severity: Severity::Error,
     foreign: Severity::Error,

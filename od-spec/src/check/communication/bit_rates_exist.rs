@@ -10,7 +10,7 @@ use crate::wording::Key;
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
 /// The code of the rule.
-pub const CODE: &Code = &Code {
+const CODE: &Code = &Code {
     id: "OD0602",
     severity: Severity::Error,
     foreign: Severity::Warning,

@@ -32,7 +32,7 @@ pub const CODE: &Code = &Code {
 const LINE: usize = 255;
 
 /// Why a line with room for `longest` characters cannot hold a text: `has 250 characters, a line holds 246`.
-pub fn problem(text: &str, longest: usize) -> Option<String> {
+pub(crate) fn problem(text: &str, longest: usize) -> Option<String> {
     let written = crate::ascii::transliterate(text);
     // Some characters are transcribed with others that readers misread: `≤` as `<=`.
     let unfit = text.chars().chain(written.chars()).try_for_each(|c| match unfit(c) {

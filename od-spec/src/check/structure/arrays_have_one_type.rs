@@ -9,7 +9,7 @@ use crate::model::{EntryId, Fact, ObjectKind};
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
 /// The code of the rule.
-pub const CODE: &Code = &Code {
+const CODE: &Code = &Code {
     id: "OD0315",
     severity: Severity::Error,
     foreign: Severity::Warning,

@@ -8,7 +8,7 @@ use crate::diag::{Code, Example, Severity};
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
 /// The code of the rule.
-pub const CODE: &Code = &Code {
+const CODE: &Code = &Code {
     id: "OD0316",
     severity: Severity::Error,
     foreign: Severity::Warning,

@@ -10,7 +10,7 @@ use crate::wording::format_value;
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::Objects(check) };
 
 /// The code of the rule.
-pub const CODE: &Code = &Code {
+const CODE: &Code = &Code {
     id: "OD0407",
     severity: Severity::Error,
     foreign: Severity::Error,

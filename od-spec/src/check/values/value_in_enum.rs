@@ -12,7 +12,7 @@ use crate::wording::format_value;
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Everything, check: Check::Device(check) };
 
 /// The code of the rule.
-pub const CODE: &Code = &Code {
+pub(crate) const CODE: &Code = &Code {
     id: "OD0403",
     severity: Severity::Error,
     foreign: Severity::Error,

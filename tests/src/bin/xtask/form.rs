@@ -50,6 +50,9 @@ fn clippy_compiles() -> bool {
 /// The documentation of every item, also of private ones, without a warning.
 pub(crate) fn documentation(runner: &mut Runner) -> Result<(), Failure> {
     let mut doc = cargo(&["doc", "--quiet", "--workspace", "--no-deps", "--document-private-items"]);
+    runner.run(doc.env("RUSTDOCFLAGS", "-D warnings"))?;
+    // What a registry shows has all features.
+    let mut doc = cargo(&["doc", "--quiet", "--no-deps", "--package", "firmware-glue", "--all-features"]);
     runner.run(doc.env("RUSTDOCFLAGS", "-D warnings"))
 }
 

@@ -9,6 +9,7 @@ mod corpus;
 mod english;
 mod form;
 mod hostile;
+mod installed;
 mod manuals;
 mod package;
 mod parts;

@@ -24,6 +24,10 @@ pub(crate) fn complete(runner: &mut Runner) -> Result<(), Failure> {
         let name = name(package)?;
         let listed = cargo(&["package", "--list", "--allow-dirty", "--package", name])?;
         lacks.extend(lacking(package, &listed).into_iter().map(|what| format!("{name} lacks {what}")));
+        let directory = directory(package)?;
+        let readme = std::fs::read_to_string(directory.join("README.md")).unwrap_or_default();
+        let lost = links(&readme).filter(|link| !listed.lines().any(|file| file == *link));
+        lacks.extend(lost.map(|link| format!("{name} lacks {link}, to which its README links")));
     }
     if !lacks.is_empty() {
         return Err(lacks.join("\n").into());
@@ -74,8 +78,7 @@ fn install(runner: &mut Runner, published: &[Value]) -> Result<(), Failure> {
             .is_some_and(|targets| targets.iter().any(|target| target.get("name") == Some(&"odgen".into())))
     };
     let package = published.iter().find(has_command).ok_or("no package has the command odgen")?;
-    let manifest = package.get("manifest_path").and_then(Value::as_str).map(Path::new);
-    let directory = manifest.and_then(Path::parent).ok_or("cargo metadata names no manifest")?;
+    let directory = directory(package)?;
     let installed = root().join("target/installed");
     let mut command = runner::cargo();
     command.args(["install", "--quiet", "--locked", "--debug", "--force", "--path"]).arg(directory);
@@ -123,6 +126,17 @@ fn published(metadata: &str) -> Result<Vec<Value>, Failure> {
     Ok(packages.into_iter().filter(|package| package.get("publish").is_none_or(Value::is_null)).collect())
 }
 
+fn directory(package: &Value) -> Result<&Path, Failure> {
+    let manifest = package.get("manifest_path").and_then(Value::as_str).map(Path::new);
+    manifest.and_then(Path::parent).ok_or_else(|| "cargo metadata names no manifest".into())
+}
+
+/// The files that a page links to. A registry shows the page without the repository around it.
+fn links(page: &str) -> impl Iterator<Item = &str> {
+    let targets = page.split("](").skip(1).filter_map(|rest| rest.split([')', '#']).next());
+    targets.filter(|target| !target.is_empty() && !target.contains("://"))
+}
+
 fn name(package: &Value) -> Result<&str, Failure> {
     package.get("name").and_then(Value::as_str).ok_or_else(|| "a package has no name".into())
 }
@@ -137,6 +151,11 @@ fn lacking<'a>(package: &Value, listed: &str) -> Vec<&'a str> {
     let mut lacks: Vec<&str> = FACTS.into_iter().filter(|fact| !states(fact)).collect();
     lacks.extend(LISTS.into_iter().filter(|fact| !lists(fact)));
     lacks.extend(FILES.into_iter().filter(|file| !files.contains(file)));
+    // The pages of a registry show what has the default features, unless the package asks for all.
+    let has_features = package.get("features").and_then(Value::as_object).is_some_and(|all| !all.is_empty());
+    if has_features && package.pointer("/metadata/docs/rs/all-features") != Some(&true.into()) {
+        lacks.push("package.metadata.docs.rs.all-features");
+    }
     lacks
 }
 
@@ -158,7 +177,8 @@ mod tests {
         {"name": "private", "publish": []},
         {"name": "bare", "version": "0.2.0", "publish": null, "description": "", "keywords": []},
         {"name": "whole", "version": "0.1.0", "publish": null, "description": "what", "license": "MIT", "readme": "README.md",
-         "rust_version": "1.90", "keywords": ["can"], "categories": ["embedded"]}
+         "rust_version": "1.90", "keywords": ["can"], "categories": ["embedded"], "features": {"std": []},
+         "metadata": {"docs": {"rs": {"all-features": true}}}}
     ]}"#;
 
     #[test]
@@ -176,6 +196,15 @@ mod tests {
         let whole = "LICENSE-APACHE\nLICENSE-MIT\nREADME.md\nsrc/lib.rs\n";
         assert_eq!(lacking(&published[1], whole), Vec::<&str>::new());
         assert_eq!(lacking(&published[1], "LICENSE-MIT\nold/README.md\n"), ["README.md", "LICENSE-APACHE"]);
+        let mut undocumented = published[1].clone();
+        undocumented["metadata"] = Value::Null;
+        assert_eq!(lacking(&undocumented, whole), ["package.metadata.docs.rs.all-features"]);
+    }
+
+    #[test]
+    fn files_that_a_page_links_to_are_found() {
+        let page = "[a](docs/a.md#top), [b](https://example.org), [c](#here), ![d](d.png)";
+        assert_eq!(links(page).collect::<Vec<_>>(), ["docs/a.md", "d.png"]);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use od_tests::Failure;
 
 use crate::runner::Runner;
 use crate::tools::Tool;
-use crate::{browser, english, form, manuals, package, plain_c, readers, rust_tests};
+use crate::{browser, english, form, installed, manuals, package, plain_c, readers, rust_tests};
 
 /// A part of the tests.
 pub(crate) struct Part {
@@ -40,6 +40,7 @@ pub(crate) enum Area {
     Readers,
     Browser,
     Firmware,
+    Installed,
 }
 
 /// How often a part runs.
@@ -86,6 +87,7 @@ const NODE: &[Tool] = &[Tool::Node];
 const BROWSER: &[Tool] = &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext];
 const PAPER: &[Tool] = &[Tool::Python, Tool::Pdftotext, Tool::Pango];
 const THUMB: &[Tool] = &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker];
+const WINDOWS: &[Tool] = &[Tool::WindowsTarget, Tool::Mingw, Tool::Wine];
 const EMULATOR: &[Tool] = &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu];
 
 /// A part of the Rust tests in this tier; other parts change what differs.
@@ -120,7 +122,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 41] = [
+pub(crate) static PARTS: [Part; 43] = [
     rust("form", "form", Tier::Check, form::check),
     rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
@@ -249,6 +251,28 @@ pub(crate) static PARTS: [Part; 41] = [
         Tier::Long("compiles everything once more; the gate looks at the lists of files and the manifests"),
         package::unpacked,
     ),
+    Part {
+        area: Area::Installed,
+        turn: Turn::First,
+        needs: WINDOWS,
+        ..rust(
+            "windows",
+            "the command on Windows",
+            Tier::Long("compiles everything once more; the gate tests the same code on this system"),
+            installed::windows,
+        )
+    },
+    Part {
+        area: Area::Installed,
+        turn: Turn::First,
+        needs: PYTHON,
+        ..rust(
+            "wheel",
+            "the command from a Python package",
+            Tier::Long("fetches a builder of packages; the package has nothing but the program"),
+            installed::wheel,
+        )
+    },
     rust(
         "long-mutants",
         "mutants of files for ten minutes",
@@ -379,6 +403,7 @@ impl Area {
             Area::Readers => "the foreign readers of EDS files",
             Area::Browser => "the documents in a browser",
             Area::Firmware => "the firmware for a Cortex-M",
+            Area::Installed => "the command on other systems",
         }
     }
 }
@@ -408,7 +433,7 @@ mod tests {
                 .iter()
                 .all(|name| name.bytes().all(|byte| byte.is_ascii_lowercase() || b"-2".contains(&byte)))
         );
-        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Clang));
+        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Wine));
     }
 
     #[test]

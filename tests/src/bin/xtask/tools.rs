@@ -10,6 +10,8 @@ use od_tests::root;
 
 /// The target of the firmware in tests/thumb.
 const TARGET: &str = "thumbv7em-none-eabi";
+/// The target of the command on Windows, as the compiler from Debian builds it.
+pub(crate) const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
 /// How long rustup may take to fetch it: a few megabytes, or a network that never answers.
 const FETCH_LIMIT: Duration = Duration::from_secs(120);
 /// Names of Chromium; the variable `CHROMIUM` names another program.
@@ -30,10 +32,15 @@ pub(crate) enum Tool {
     Qemu,
     /// A second compiler of C, which compiles for other platforms, too; the first is the one that Rust links with.
     Clang,
+    WindowsTarget,
+    /// The linker and the C compiler for Windows.
+    Mingw,
+    /// Runs programs for Windows.
+    Wine,
 }
 
 impl Tool {
-    pub(crate) const ALL: [Tool; 9] = [
+    pub(crate) const ALL: [Tool; 12] = [
         Tool::Python,
         Tool::Node,
         Tool::Chromium,
@@ -43,6 +50,9 @@ impl Tool {
         Tool::ThumbLinker,
         Tool::Qemu,
         Tool::Clang,
+        Tool::WindowsTarget,
+        Tool::Mingw,
+        Tool::Wine,
     ];
 
     pub(crate) const fn name(self) -> &'static str {
@@ -56,6 +66,9 @@ impl Tool {
             Tool::ThumbLinker => "a linker for it: rust-lld, which rustup's Rust has, or arm-none-eabi-ld",
             Tool::Qemu => "qemu-system-arm",
             Tool::Clang => "clang",
+            Tool::WindowsTarget => "Rust's target x86_64-pc-windows-gnu",
+            Tool::Mingw => "mingw-w64",
+            Tool::Wine => "Wine",
         }
     }
 
@@ -76,6 +89,9 @@ impl Tool {
             Tool::ThumbLinker => &["apt-get install binutils-arm-none-eabi"],
             Tool::Qemu => &["apt-get install qemu-system-arm"],
             Tool::Clang => &["apt-get install clang"],
+            Tool::WindowsTarget => &["rustup target add x86_64-pc-windows-gnu"],
+            Tool::Mingw => &["apt-get install gcc-mingw-w64-x86-64"],
+            Tool::Wine => &["apt-get install wine wine64"],
         }
     }
 
@@ -99,6 +115,9 @@ impl Tool {
             Tool::ThumbLinker => has_linker(),
             Tool::Qemu => is_in_path("qemu-system-arm"),
             Tool::Clang => is_in_path("clang"),
+            Tool::WindowsTarget => has_target_of_rustc(WINDOWS_TARGET),
+            Tool::Mingw => is_in_path("x86_64-w64-mingw32-gcc"),
+            Tool::Wine => is_in_path("wine"),
         }
     }
 }
@@ -145,7 +164,11 @@ fn has_target() -> bool {
 
 /// Whether the toolchain that compiles this workspace has the target's core library.
 pub(crate) fn has_shipped_target() -> bool {
-    sysroot("rustc").is_some_and(|root| root.join("lib/rustlib").join(TARGET).is_dir())
+    has_target_of_rustc(TARGET)
+}
+
+fn has_target_of_rustc(target: &str) -> bool {
+    sysroot("rustc").is_some_and(|root| root.join("lib/rustlib").join(target).is_dir())
 }
 
 /// Debian's Rust, if it can build the core library: it has its own cargo and the sources.

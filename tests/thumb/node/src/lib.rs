@@ -14,7 +14,7 @@ mod uart;
 use embedded_can::nb::Can;
 use firmware_glue::frame::Frame;
 use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
-use firmware_glue::node::{NodeHandler, Reset};
+use firmware_glue::node::{NodeHandler, Reset, Room, UpTo};
 use firmware_glue::pdo::engine::PdoHandler;
 use firmware_glue::storage::{ALL, Command, ParameterStore};
 use firmware_glue::{AbortCode, Application, Dictionary, EntryId, Node, NodeId, Storage};
@@ -115,8 +115,14 @@ fn run<D: Dictionary<'static>, C: Can, const LARGEST: usize>(
     mut clock: clock::Clock,
     mut bench: Bench<'_>,
 ) {
-    let node = Node::<_, 16, 16, 32, 8>::new(od.table(), NodeId::new(NODE), [0; LARGEST]);
-    let Ok(mut node) = node else { return };
+    let room = Room {
+        tpdos: UpTo::<16>,
+        rpdos: UpTo::<16>,
+        errors: UpTo::<32>,
+        watched: UpTo::<8>,
+        sdo_buffer: [0; LARGEST],
+    };
+    let Ok(mut node) = Node::new(od.table(), NodeId::new(NODE), room) else { return };
     let mut waiting: Option<Frame> = None;
     loop {
         let now = clock.now();

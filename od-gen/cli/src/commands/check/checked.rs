@@ -8,6 +8,7 @@ use od_gen::source::{FileLoader, compile_bytes_as, compile_file_as, read_input};
 use od_readers::remark;
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
 use od_spec::eds::is_eds;
+use od_spec::file_name;
 use od_spec::source::SourceMap;
 use od_spec::xdd::is_xdd;
 use od_spec::{Compiled, Strictness};
@@ -119,7 +120,7 @@ fn compile(
 }
 
 fn unreadable(name: &str, reason: &str) -> Diagnostic {
-    let name = Path::new(name).display();
+    let name = file_name::shown(Path::new(name));
     Diagnostic::without_place(codes::UNREADABLE, format!("cannot read {name}: {reason}"))
 }
 

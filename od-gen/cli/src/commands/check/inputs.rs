@@ -7,6 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use od_gen::source::whole;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::eds::has_eds_name;
+use od_spec::file_name;
 use od_spec::xdd::has_xdd_name;
 
 use super::args::{CheckArgs, CheckFormat};
@@ -28,7 +29,7 @@ impl Input {
     /// What messages call it.
     pub(super) fn name(&self) -> String {
         match self {
-            Input::File(path) => path.display().to_string(),
+            Input::File(path) => file_name::shown(path),
             Input::Stdin(name) | Input::Missing { name, .. } => name.clone(),
         }
     }
@@ -82,7 +83,7 @@ fn in_directory(directory: &Path) -> Vec<Input> {
     if let Err((path, error)) = walk(directory, &mut found) {
         inputs.push(missing(
             directory,
-            format!("cannot read {}: {error}", path.display()),
+            format!("cannot read {}: {error}", file_name::shown(path)),
             "check its permissions",
         ));
     }
@@ -90,7 +91,7 @@ fn in_directory(directory: &Path) -> Vec<Input> {
     if found.is_empty() && inputs.is_empty() {
         let message = format!(
             "there is no `*.od.yaml`, `*.eds`, `*.dcf`, `*.xdd` or `*.xdc` in {}",
-            directory.display()
+            file_name::shown(directory)
         );
         inputs.push(missing(directory, message, "name files of other names one by one"));
     }
@@ -100,7 +101,7 @@ fn in_directory(directory: &Path) -> Vec<Input> {
 
 fn missing(directory: &Path, message: String, help: &str) -> Input {
     let diagnostic = Diagnostic::without_place(codes::UNREADABLE, message).help(help);
-    Input::Missing { name: directory.display().to_string(), diagnostic }
+    Input::Missing { name: file_name::shown(directory), diagnostic }
 }
 
 /// Adds the files of a directory and of those in it. What is hidden is left out, and a link to a directory is not followed: it may

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use od_spec::diag::{Diagnostic, codes};
+use od_spec::file_name;
 use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_spec::xdd::Disabled;
@@ -45,7 +46,7 @@ struct Git<'a> {
 impl Git<'_> {
     /// How messages name a file of the revision, which is as git does.
     fn name(&self, path: &Path) -> String {
-        format!("{}:{}", self.revision, path.display())
+        format!("{}:{}", self.revision, file_name::shown(path))
     }
 
     /// The bytes of a file.

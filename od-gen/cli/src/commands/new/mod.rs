@@ -10,6 +10,7 @@ use std::path::Path;
 use od_gen::Artifact;
 use od_gen::files::{Existing, write_set};
 use od_spec::diag::{Diagnostic, codes};
+use od_spec::file_name;
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile, is_device_key};
 
@@ -54,12 +55,12 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
     let path = args.out.join(&name);
     if path.symlink_metadata().is_ok() {
         let shown = path.strip_prefix(".").unwrap_or(&path);
-        let message = format!("cannot write `{}`: it is there already", shown.display());
+        let message = format!("cannot write `{}`: it is there already", file_name::shown(shown));
         return Err(Diagnostic::without_place(codes::WRITE_FAILED, message)
             .help("choose another name or, with `--out`, another directory"));
     }
     if args.out.is_file() {
-        let message = format!("cannot write into `{}`: it is a file", args.out.display());
+        let message = format!("cannot write into `{}`: it is a file", file_name::shown(&args.out));
         return Err(
             Diagnostic::without_place(codes::WRITE_FAILED, message).help("name a directory with `--out`")
         );

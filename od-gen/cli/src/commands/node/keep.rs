@@ -5,6 +5,7 @@ use std::path::Path;
 use od_gen::Artifact;
 use od_gen::files::Existing;
 use od_spec::diag::{Diagnostic, codes};
+use od_spec::file_name;
 
 use super::args::{NodeBackupArgs, NodeFileArgs, NodeRestoreArgs};
 use super::beside::{Beside, beside, compared};
@@ -30,7 +31,7 @@ pub(super) fn backup(args: &NodeBackupArgs, report: &Report) -> Result<u8, u8> {
     args.skip.none(report)?;
     let target = described.target(&args.node, None, report)?;
     let name = args.out.file_name().and_then(|name| name.to_str()).ok_or_else(|| {
-        let message = format!("cannot write `{}`: it names no file", args.out.display());
+        let message = format!("cannot write `{}`: it names no file", file_name::shown(&args.out));
         report.refuse(Diagnostic::without_place(codes::WRITE_FAILED, message).help("write the file's name"))
     })?;
     let interrupt = Interrupt::noted();

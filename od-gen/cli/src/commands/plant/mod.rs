@@ -10,6 +10,7 @@ use od_gen::files::{Existing, Outcome, WriteError, left_over_of_folders, remove,
 use od_gen::{Pool, SharedFile};
 use od_plant::{Job, SHEET, WORKBOOK, files, jobs, make};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::file_name;
 use od_spec::plant::Plant;
 use od_spec::source::SourceMap;
 
@@ -133,7 +134,7 @@ fn overwritten(out: &Path, set: &[SharedFile], read: &[PathBuf]) -> Option<Strin
     // Where nothing that was read lies below the directory, nothing is written over.
     let below: Vec<&PathBuf> = read.iter().filter(|path| path.starts_with(&out)).collect();
     let found = set.iter().find(|file| below.iter().any(|path| **path == out.join(&file.path)))?;
-    Some(out.join(&found.path).display().to_string())
+    Some(file_name::shown(out.join(&found.path)))
 }
 
 /// Names what an earlier build made for nodes that are no more, and removes it if that is wanted.

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use od_plant::{PlantValue, default_of, values};
 use od_spec::diag::{Diagnostic, codes, nearest};
+use od_spec::file_name;
 use od_spec::model::EntryId;
 use od_spec::plant::{Plant, PlantLayer, PlantNode};
 use od_spec::source::{SourceMap, Span};
@@ -97,7 +98,7 @@ fn chosen<'a>(args: &PlantShowArgs, plant: &'a Plant) -> Result<Vec<&'a PlantNod
         let message = format!("there is no {what} `{wanted}`");
         let help = match nearest(wanted, known.iter().copied()) {
             Some(word) => format!("did you mean `{word}`?"),
-            None => format!("look for it with `odgen plant show {}`", args.plant.display()),
+            None => format!("look for it with `odgen plant show {}`", file_name::shown(&args.plant)),
         };
         return Err(Box::new(Diagnostic::without_place(codes::UNKNOWN_WORD, message).help(help)));
     }

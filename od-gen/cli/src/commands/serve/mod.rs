@@ -23,6 +23,7 @@ use od_bus::runtime::{self, Bus, Checks, LiveDictionary, VirtualNode};
 use od_bus::slcan::CanFrame;
 use od_bus::trace::{Decoder, Node, What};
 use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::file_name;
 
 use crate::bus_nodes::BusNodes;
 use crate::exit::ERRORS;
@@ -209,7 +210,7 @@ impl Place {
                     .help("name a path that is free, in a directory where you may write, or none"),
             )
         })?;
-        let text = format!("serial:{}", terminal.place().display());
+        let text = format!("serial:{}", file_name::shown(terminal.place()));
         Ok(Self { _terminal: Some(terminal), ..Self::at(text) })
     }
 

@@ -6,6 +6,7 @@ use cortex_m_rt::entry;
 use firmware_glue::clock::Instant;
 use firmware_glue::emcy::Emergency;
 use firmware_glue::frame::Frame;
+use firmware_glue::node::{Room, UpTo};
 use firmware_glue::{Dictionary as _, Node, NodeId};
 use panic_halt as _;
 
@@ -25,7 +26,9 @@ fn main() -> ! {
     // At run time: a static with values has them in flash a second time.
     let dictionary = DICTIONARY.insert(Device::new(1));
     let id = NodeId::new(black_box(5));
-    *NODE = Node::new(dictionary.table(), id, [0; Device::LARGEST_VALUE]).ok();
+    let sdo_buffer = [0; Device::LARGEST_VALUE];
+    let room = Room { tpdos: UpTo, rpdos: UpTo, errors: UpTo, watched: UpTo, sdo_buffer };
+    *NODE = Node::new(dictionary.table(), id, room).ok();
     loop {
         let (Some(node), now) = (NODE.as_mut(), black_box(Instant::ZERO)) else { continue };
         if let Some(frame) = black_box(&FRAME) {

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use od_bus::client::{Bus, Client};
 use od_bus::program::{CONTROL, DATA, FLASH, IDENTIFICATION, State};
+use od_gen::source::reason;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{EntryId, Index, SubIndex};
 
@@ -89,7 +90,7 @@ fn data(file: &Path) -> Result<Vec<u8>, Diagnostic> {
         let message = format!("cannot load {}: {why}", shown(file));
         Diagnostic::without_place(codes::UNREADABLE, message).help(help)
     };
-    let data = std::fs::read(file).map_err(|error| refused(&error.to_string(), "check the path"))?;
+    let data = std::fs::read(file).map_err(|error| refused(&reason(&error), "check the path"))?;
     let help = "name the file that the maker of the device provides for program download";
     match u32::try_from(data.len()) {
         Ok(0) => Err(refused("the file is empty", help)),
