@@ -120,7 +120,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 40] = [
+pub(crate) static PARTS: [Part; 41] = [
     rust("form", "form", Tier::Check, form::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
     rust("rust", "Rust tests", Tier::Gate, rust_tests::integration),
@@ -176,6 +176,7 @@ pub(crate) static PARTS: [Part; 40] = [
     reader("xdd", "EDS readers: XDD and XDC", Tier::Gate, readers::xdd_structure),
     reader("plant", "EDS readers: a plant", Tier::Gate, readers::plant),
     reader("values", "EDS readers: values of nodes", Tier::Gate, readers::values_of_nodes),
+    reader("book", "the book and its links", Tier::Gate, readers::book),
     reader("faults", "faults on a live bus", Tier::Gate, readers::faults),
     reader("dbc", "DBC readers", Tier::Gate, readers::dbc),
     reader("lsp", "language server", Tier::Gate, readers::language_server),

@@ -170,6 +170,14 @@ pub(crate) fn faults(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(Command::new(&python).args(arguments).arg(&odgen))
 }
 
+/// The book: MkDocs follows each link and anchor, and takes no warning.
+pub(crate) fn book(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let arguments = ["-m", "mkdocs", "build", "--strict", "--config-file", "docs/mkdocs.yml"];
+    // It announces its successor otherwise.
+    runner.run(Command::new(&python).args(arguments).env("NO_MKDOCS_2_WARNING", "1"))
+}
+
 /// The Python that the readers are installed for, if that could be done.
 fn python_of_readers(runner: &mut Runner) -> Option<PathBuf> {
     let environment = root().join(VENV);
