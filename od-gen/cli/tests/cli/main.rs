@@ -43,6 +43,8 @@ mod specify;
 mod specs;
 mod st;
 mod texts;
+#[cfg(unix)]
+mod tutorial;
 mod xdd;
 
 use std::fs;
