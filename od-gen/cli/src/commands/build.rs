@@ -210,7 +210,7 @@ fn left_from_before(args: &BuildArgs, set: &[Artifact]) -> Result<String, WriteE
 fn to_open(out: &Path, set: &[Artifact]) -> String {
     type IsOfKind = fn(folder: &str, name: &str) -> bool;
     const KINDS: [(&str, IsOfKind); 4] = [
-        ("EDS", |folder, name| folder == "eds" && name.ends_with(".eds")),
+        ("EDS", |folder, name| folder == "eds" && matches!(name.rsplit_once('.'), Some((_, "eds")))),
         ("page", |folder, name| {
             folder == "docs" && ["README.md", "index.html", "manual.html"].contains(&name)
         }),
