@@ -17,7 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-SPEC = Path("tests/readme/valve.od.yaml").resolve()
+SPEC = Path("tests/book/valve.od.yaml").resolve()
 INTERRUPTED = 130
 # What is typed, the exit code, and what the nodes have afterwards. Ctrl-C ends the command before anything is sent.
 ANSWERS = [

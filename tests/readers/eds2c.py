@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Make firmware in C of generated EDS files, as the README says, and look at what comes out.
+"""Make firmware in C of generated EDS files, as the book shows, and look at what comes out.
 
     eds2c.py --eds-dir generated/eds --dump generated/*.json --odgen target/debug/odgen
 

@@ -4,7 +4,7 @@
     fault_matrix.py --odgen target/debug/odgen [--self-test] [--write] [--only COMMAND] [--verbose]
 
 A relay between `odgen node` and three virtual nodes does something to the frames of one of them, from a request in the middle of
-the command on. Afterwards python-canopen reads every node, past the relay. Prints the table of docs/operating-a-live-bus.md;
+the command on. Afterwards python-canopen reads every node, past the relay. Prints the table of docs/book/guides/live-bus.md;
 `--write` writes it there. Exit code 1 when a command does something else than is expected here, or the page has another table.
 """
 
@@ -26,7 +26,7 @@ import fault_relay as relay
 from fault_machine import DEVICES, ROOT, Done, Machine, Room, Running, State
 from fault_relay import DOWNLOAD, UPLOAD, At, Fault, Id
 
-PAGE = ROOT / "docs/operating-a-live-bus.md"
+PAGE = ROOT / "docs/book/guides/live-bus.md"
 NODE = 11
 """The node whose frames something happens to: the second of three."""
 FILES = ("A-pmm.yaml", "A-pmc.yaml", "B-pmc.yaml")

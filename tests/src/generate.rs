@@ -3,10 +3,8 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use od_c as c;
-use od_diff::{Question, Scope, compare, human};
 use od_documents::{self as docs, Templates};
-use od_formats::{Selection, artifacts, dbc};
+use od_formats::{Selection, artifacts};
 use od_gen::Artifact;
 use od_gen::files::{left_over, remove};
 use od_gen::rust::{self, Provenance};
@@ -14,10 +12,8 @@ use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
-use od_spec::{Compiled, NoFiles, compile};
-use od_st as st;
 
-use crate::editor::{hover, mistyped};
+use crate::examples::pages;
 use crate::{Failure, compile_with_sources, root};
 
 /// The shipped specifications.
@@ -43,28 +39,29 @@ fn shipped() -> Result<Vec<GeneratedFile>, Failure> {
         let (system, sources) = compile_with_sources(&format!("od-spec/devices/{stem}.od.yaml"))?;
         let set = artifacts(&system, stem, &Selection { node: Some(1), ..Selection::default() });
         let set = set.into_iter().chain(modules(&system, &sources)?);
-        let set = set.chain(documents(&system, stem)?);
+        let set = set.chain(documents(&system, stem, docs::Format::Markdown)?);
         files.extend(set.map(|Artifact { path, bytes, .. }| (format!("generated/{path}"), bytes)));
     }
     Ok(files)
 }
 
-/// What is generated from the compiler itself, and the README.
+/// What is generated from the compiler itself, and the pages with examples.
 ///
 /// # Errors
 /// As [`all`].
 pub fn texts() -> Result<Vec<GeneratedFile>, Failure> {
-    Ok(vec![
-        ("od-spec/schema/od.schema.json".to_owned(), od_reference::json_schema().into_bytes()),
-        ("docs/language.md".to_owned(), od_reference::reference().into_bytes()),
-        ("docs/messages.md".to_owned(), messages().into_bytes()),
-        ("README.md".to_owned(), readme()?.into_bytes()),
-    ])
+    let texts = [
+        ("od-spec/schema/od.schema.json", od_reference::json_schema()),
+        ("docs/book/language/index.md", od_reference::reference()),
+        ("docs/book/messages/index.md", messages()),
+    ];
+    let texts = texts.into_iter().map(|(path, text)| (path.to_owned(), text.into_bytes()));
+    Ok(texts.chain(pages()?).collect())
 }
 
-/// The reference documentation of a specification, as Markdown.
-fn documents(system: &System, stem: &str) -> Result<Vec<Artifact>, Failure> {
-    let templates = [Templates::new(Some(docs::Format::Markdown), &[])?];
+/// The reference documentation of a specification.
+pub(crate) fn documents(system: &System, stem: &str, format: docs::Format) -> Result<Vec<Artifact>, Failure> {
+    let templates = [Templates::new(Some(format), &[])?];
     Ok(docs::artifacts(system, "docs/", stem, &docs::options(system, &[], None), &templates)?)
 }
 
@@ -139,7 +136,7 @@ pub fn first_difference(files: Vec<GeneratedFile>) -> Option<String> {
     None
 }
 
-/// `docs/messages.md`: every code with its explanation.
+/// The page of messages: every code with its explanation.
 fn messages() -> String {
     let mut text = String::from(
         "# Messages\n\nEvery message of the compiler has a stable code. `odgen explain CODE` prints what is written here.\n",
@@ -150,200 +147,4 @@ fn messages() -> String {
             write!(text, "\n## {code}: {}\n\n*{severity}* — {}", code.title, od_reference::explanation(code));
     }
     text
-}
-
-/// The README with its examples made anew.
-fn readme() -> Result<String, Failure> {
-    let path = "tests/readme/valve.od.yaml";
-    let spec = fs::read_to_string(root().join(path))?;
-    let (system, sources) = compile_with_sources(path)?;
-    let device = system.devices.first().ok_or("the example has no device")?;
-    let eds = String::from_utf8(od_formats::eds::write_eds(&system, device))?.replace("\r\n", "\n");
-    let sections = ["2000", "2001", "1600sub1", "1800sub1"];
-    let excerpt: Vec<&str> = eds
-        .split("\n\n")
-        .filter(|part| sections.iter().any(|name| part.lines().any(|line| line == format!("[{name}]"))))
-        .map(str::trim_end)
-        .collect();
-    let firmware = fs::read_to_string(root().join("tests/readme/firmware.rs"))?.replace("readme/", "");
-    let mut diagnostics = Diagnostics::new();
-    let module = rust::file(&system, device, &Provenance::of(&sources), &mut diagnostics)
-        .ok_or("the example has no Rust module")?;
-    let api: Vec<&str> = ["set_pressure", "actual_pressure"]
-        .into_iter()
-        .map(|name| function(&module, name).ok_or("the example lacks an accessor"))
-        .collect::<Result<_, _>>()?;
-    let text = fs::read_to_string(root().join("README.md"))?;
-    let text = block(&text, "spec", &format!("```yaml\n{spec}```"))?;
-    let text = block(&text, "eds", &format!("```ini\n{}\n```", excerpt.join("\n\n")))?;
-    let text =
-        block(&text, "api", &format!("```rust\nimpl Valve {{\n{}\n    // …\n}}\n```", api.join("\n\n")))?;
-    let drive = fs::read_to_string(root().join("tests/readme/lift.od.yaml"))?;
-    let text = block(&text, "drive", &format!("```yaml\n{drive}```"))?;
-    let text = block(&text, "firmware", &format!("```rust\n{firmware}```"))?;
-    let text = block(&text, "diff", &format!("```text\n{}```", changes(&spec, &system)?))?;
-    let text = block(&text, "canopennode", &format!("```c\n{}\n```", stack(&system, &sources)?))?;
-    let c = fs::read_to_string(root().join("tests/readme/valve.c"))?;
-    let text = block(&text, "c", &format!("```c\n{c}```"))?;
-    let entry = c_entry(&system, &Provenance::of(&sources))?;
-    let text = block(&text, "c-entry", &format!("```c\n{entry}\n```"))?;
-    let text = block(&text, "dbc", &format!("```text\n{}\n```", frames(&system)))?;
-    let text = block(&text, "st", &format!("```text\n{}\n```", structured_text(&system)?))?;
-    let in_editor = [mistyped(&spec, "decibar, access", "decibr, access")?, hover(&spec, "set pressure")?];
-    let text = block(&text, "editor", &format!("```text\n{}\n```", in_editor.join("\n\n")))?;
-    block(&text, "docs", &tables(&system)?)
-}
-
-/// What the files for CANopenNode say of an entry of the example.
-fn stack(system: &System, sources: &SourceMap) -> Result<String, Failure> {
-    let mut diagnostics = Diagnostics::new();
-    let provenance = Provenance::of(sources);
-    let set =
-        c::artifacts(system, system.devices.iter(), &provenance, &[c::Kind::CanopenNode], &mut diagnostics);
-    let lines = |name: &str, begin: &str, end: &str| -> Result<String, Failure> {
-        let file = set.iter().find(|file| file.path.ends_with(name)).ok_or_else(|| format!("no {name}"))?;
-        let text = std::str::from_utf8(&file.bytes)?;
-        let from = text.find(begin).ok_or_else(|| format!("{name} lacks `{begin}`"))?;
-        let to = text[from..].find(end).ok_or_else(|| format!("{name} lacks `{end}`"))? + from + end.len();
-        let start = text[..from].rfind('\n').map_or(0, |at| at + 1);
-        Ok(text[start..to].to_owned())
-    };
-    Ok([
-        lines("/OD.h", "/**\n     * 2000h", "x2000_setPressure;")?,
-        lines("/OD.c", ".o_2000_setPressure = {", "},")?,
-        lines("/OD_rules.c", "/* 2000h", "},")?,
-    ]
-    .join("\n"))
-}
-
-/// Some constants of the example in Structured Text, a conversion and the block of a PDO.
-fn structured_text(system: &System) -> Result<String, Failure> {
-    let [device] = system.devices.as_slice() else {
-        return Err("the example has another number of devices".into());
-    };
-    let files = st::write(system, device, Some(5), None).artifacts;
-    let file = |path: &str| {
-        let file = files.iter().find(|file| file.path == path).ok_or_else(|| format!("no {path}"))?;
-        Ok::<_, Failure>(String::from_utf8(file.bytes.clone())?)
-    };
-    let (constants, code) = (file("valve-constants.st")?, file("valve.st")?);
-    let constants = constants.lines().filter(|line| {
-        let line = line.trim_start();
-        ["VALVE_ACTUAL_PRESSURE_INDEX", "VALVE_ACTUAL_PRESSURE_SENSOR", "VALVE_RPDO1_CAN_ID"]
-            .iter()
-            .any(|name| line.starts_with(name))
-    });
-    let mut parts = vec![constants.map(str::trim_start).collect::<Vec<_>>().join("\n")];
-    for (begin, end) in [
-        ("FUNCTION valve_actual_pressure_to_value", "END_FUNCTION\n"),
-        ("FUNCTION_BLOCK VALVE_RPDO1_OUT", "END_FUNCTION_BLOCK\n"),
-    ] {
-        let from = code.find(begin).ok_or_else(|| format!("the example lacks `{begin}`"))?;
-        let item = code.get(from..).unwrap_or_default();
-        let to = item.find(end).ok_or_else(|| format!("`{begin}` does not end"))? + end.len();
-        parts.push(item.get(..to).unwrap_or_default().trim_end().to_owned());
-    }
-    Ok(parts.join("\n\n"))
-}
-
-/// A unit, a special value and an entry of the example in plain C.
-fn c_entry(system: &System, provenance: &Provenance) -> Result<String, Failure> {
-    let mut diagnostics = Diagnostics::new();
-    let set = c::artifacts(system, system.devices.iter(), provenance, &[c::Kind::Plain], &mut diagnostics);
-    let part = |path: &str, start: &str| -> Result<String, Failure> {
-        let file = set.iter().find(|artifact| artifact.path == path).ok_or("the example has no such file")?;
-        let text = std::str::from_utf8(&file.bytes)?;
-        let start = text.find(start).ok_or_else(|| format!("{path} lacks {start}"))?;
-        let rest = text.get(start..).unwrap_or_default();
-        Ok(rest.get(..rest.find("\n\n").unwrap_or(rest.len())).unwrap_or_default().to_owned())
-    };
-    Ok([
-        part("c/valve/OD_types.h", "/** decibar")?,
-        part("c/valve/OD_types.h", "/** 2001h actual pressure")?,
-        part("c/valve/valve_od.h", "/**\n * 2000h set pressure")?,
-    ]
-    .join("\n\n"))
-}
-
-/// The PDOs of the example in its DBC.
-fn frames(system: &System) -> String {
-    let nodes = system.devices.iter().map(|device| dbc::Node { id: 5, system, device }).collect::<Vec<_>>();
-    // The example has nothing but ASCII.
-    let text = String::from_utf8_lossy(&dbc::write(&nodes).bytes).into_owned();
-    let (mut is_pdo, mut lines) = (false, Vec::new());
-    for line in text.lines() {
-        if line.starts_with("BO_ ") {
-            is_pdo = line.contains("PDO");
-        }
-        if is_pdo && (line.starts_with("BO_ ") || line.starts_with(" SG_ ")) || line.contains("sensor broken")
-        {
-            lines.push(line);
-        }
-    }
-    lines.join("\n")
-}
-
-/// What `odgen diff` says about a few changes of the example.
-fn changes(spec: &str, old: &System) -> Result<String, Failure> {
-    let changed = [
-        ("max: 16.0 bar}", "max: 12.0 bar}"),
-        ("type: unsigned16, unit: decibar, access: ro", "type: integer16, unit: decibar, access: ro"),
-        ("special: {0xFFFF: sensor broken}", "special: {0x7FFF: sensor broken}"),
-        ("\npdos:", "\n  0x2002: {name: travel, type: unsigned8, access: ro}\npdos:"),
-    ];
-    let mut text = spec.to_owned();
-    for (from, to) in changed {
-        if !text.contains(from) {
-            return Err(format!("the example lacks `{from}`").into());
-        }
-        text = text.replacen(from, to, 1);
-    }
-    let mut sources = SourceMap::new();
-    let root = sources.add("valve.od.yaml", text);
-    let Compiled { system, diagnostics, .. } = compile(&mut sources, root, &mut NoFiles);
-    let new = system.ok_or_else(|| render(&diagnostics, &sources, Format::Human, false))?;
-    let found = compare(&Question { old, new: &new, scope: Scope::Everything, device: None, nodes: None })?;
-    Ok(format!("$ odgen diff --git v1.0 valve.od.yaml\n{}", human(&found, false)))
-}
-
-/// The detail tables of the example's own objects, from its Markdown.
-fn tables(system: &System) -> Result<String, Failure> {
-    let files = documents(system, "valve")?;
-    let page = files.iter().find(|file| file.path.ends_with("valve.md")).ok_or("the example has no page")?;
-    let page = std::str::from_utf8(&page.bytes)?;
-    let objects = page.split("\n### ").filter(|part| part.starts_with("200"));
-    let parts = objects.map(|part| {
-        let part = part.split("\n<a id=").next().unwrap_or(part);
-        format!("#### {}", without_links(part.trim()))
-    });
-    Ok(parts.collect::<Vec<_>>().join("\n\n"))
-}
-
-/// A method with its documentation.
-fn function<'a>(module: &'a str, name: &str) -> Option<&'a str> {
-    let at = module.find(&format!("    pub fn {name}("))?;
-    let start = module[..at].rfind("\n\n")? + 2;
-    let end = at + module[at..].find("\n    }\n")? + "\n    }".len();
-    Some(&module[start..end])
-}
-
-/// Replaces what is between `<!-- name -->` and `<!-- /name -->`.
-fn block(text: &str, name: &str, content: &str) -> Result<String, Failure> {
-    let (open, close) = (format!("<!-- {name} -->"), format!("<!-- /{name} -->"));
-    let (before, rest) = text.split_once(&open).ok_or_else(|| format!("README.md lacks {open}"))?;
-    let (_, after) = rest.split_once(&close).ok_or_else(|| format!("README.md lacks {close}"))?;
-    Ok(format!("{before}{open}\n{content}\n{close}{after}"))
-}
-
-/// Markdown whose links are plain text: they lead into a document that the reader of an excerpt does not have.
-fn without_links(text: &str) -> String {
-    let mut plain = String::new();
-    let mut rest = text;
-    while let Some((before, after)) = rest.split_once("](") {
-        let (words, label) = before.rsplit_once('[').unwrap_or((before, ""));
-        plain.push_str(words);
-        plain.push_str(label);
-        rest = after.split_once(')').map_or("", |(_, after)| after);
-    }
-    plain + rest
 }

@@ -5,11 +5,13 @@ pub mod c_dictionary;
 pub mod compiler;
 pub mod documents;
 pub mod editor;
+mod examples;
 pub mod foreign;
 pub mod fuzz;
 pub mod generate;
 pub mod memo;
 pub mod patterns;
+mod pictures;
 pub mod plant;
 
 #[path = "../shared/shipped.rs"]

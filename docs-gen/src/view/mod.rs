@@ -1,4 +1,4 @@
-//! What templates see. [`Context`] is the whole of it; its format is described in `docs/templates.md`.
+//! What templates see. [`Context`] is the whole of it; its format is described in `docs/book/formats/templates.md`.
 //!
 //! A table is data: columns, and rows of cells. A template only decides how a table looks, so that every format shows the same.
 

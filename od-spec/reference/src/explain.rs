@@ -1,4 +1,4 @@
-//! What a code means: what `odgen explain` prints and `docs/messages.md` holds.
+//! What a code means: what `odgen explain` prints and the book's pages of messages hold.
 
 use std::fmt::Write as _;
 

@@ -388,10 +388,10 @@ fn a_device_may_be_called_as_the_runtime_begins() {
 }
 
 #[test]
-fn the_example_of_the_readme_compiles() {
-    let directory = directory("README");
-    write("tests/readme/valve.od.yaml", &directory).unwrap();
+fn the_example_of_the_book_compiles() {
+    let directory = directory("BOOK");
+    write("tests/book/valve.od.yaml", &directory).unwrap();
     let cc = Compiler::new("cc", &[]);
-    let source = od_tests::root().join("tests/readme/valve.c");
+    let source = od_tests::root().join("tests/book/valve.c");
     cc.object(&source, &directory, "valve", &[]).unwrap();
 }

@@ -170,10 +170,11 @@ fn devices_that_differ_are_distinguished() {
     insta::assert_snapshot!(text);
 }
 
-/// `docs/templates.md` names everything that a template can see.
+/// `docs/book/formats/templates.md` names everything that a template can see.
 #[test]
 fn the_description_of_the_context_is_complete() {
-    let description = std::fs::read_to_string(od_tests::root().join("docs/templates.md")).unwrap();
+    let description =
+        std::fs::read_to_string(od_tests::root().join("docs/book/formats/templates.md")).unwrap();
     let described: BTreeSet<&str> =
         description.split(|sign: char| !sign.is_ascii_alphanumeric() && sign != '_').collect();
     let mut names = BTreeSet::new();

@@ -30,7 +30,7 @@ fn modules(name: &str, text: &str, layout: Layout) -> Vec<(String, String)> {
 
 /// Modules of all kinds of devices: the shipped ones, and what the tests are made of.
 fn all_modules(layout: Layout) -> Vec<(String, String)> {
-    let mut paths: Vec<PathBuf> = ["tests/readers", "tests/shared", "tests/readme"]
+    let mut paths: Vec<PathBuf> = ["tests/readers", "tests/shared", "tests/book"]
         .into_iter()
         .flat_map(|directory| fs::read_dir(root().join(directory)).unwrap())
         .map(|entry| entry.unwrap().path())

@@ -2,6 +2,7 @@
 
 mod access;
 mod architecture;
+mod book;
 mod dictionary;
 mod doors;
 mod download;
@@ -12,7 +13,6 @@ mod names;
 mod nasty;
 mod pdos_in_full;
 mod physical;
-mod readme;
 mod release;
 mod runs;
 mod state_machines;

@@ -90,13 +90,13 @@ fn every_notation_of_an_index_is_known() {
     }
 }
 
-/// The plant of the README, whose devices the schema knows, and what is wrong with it in an editor's eyes.
+/// The plant of the book, whose devices the schema knows, and what is wrong with it in an editor's eyes.
 #[test]
 fn the_schema_of_a_plant_knows_its_devices() {
-    let readme = fs::read_to_string(root().join("README.md")).unwrap();
-    let (_, rest) = readme.split_once("<!-- plant -->\n```yaml\n").unwrap();
+    let page = fs::read_to_string(root().join("docs/book/guides/plant.md")).unwrap();
+    let (_, rest) = page.split_once("<!-- plant -->\n```yaml\n").unwrap();
     let plant = rest.split_once("```").unwrap().0;
-    let system = compile_clean("tests/readme/valve.od.yaml").unwrap();
+    let system = compile_clean("tests/book/valve.od.yaml").unwrap();
     let schema = plant_schema_of(&[("valve", &system, system.device("valve").unwrap())]);
     let schema = serde_json::from_str(&schema).expect("JSON");
     assert!(jsonschema::meta::is_valid(&schema));

@@ -288,7 +288,7 @@ fn the_checked_in_schema_is_current() {
 
 #[test]
 fn the_checked_in_reference_is_current() {
-    assert_current("docs/language.md", &od_reference::reference());
+    assert_current("docs/book/language/index.md", &od_reference::reference());
 }
 
 fn assert_current(path: &str, text: &str) {

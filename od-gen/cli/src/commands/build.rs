@@ -1,5 +1,6 @@
 //! `odgen build`.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -164,12 +165,13 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
     // The process ends next: taking the models apart piece by piece would only cost the user time.
     std::mem::forget(systems);
     let code = write(&args.out, &set, forced(args.force, Existing::Generated), &summary, report);
-    // What is made of some devices says nothing about the others.
-    if code != 0 || !args.device.is_empty() {
+    if code != 0 {
         return code;
     }
-    match left_from_before(args, &set) {
-        Ok(text) => print(&text),
+    // What is made of some devices says nothing about the others.
+    let left = if args.device.is_empty() { left_from_before(args, &set) } else { Ok(String::new()) };
+    match left {
+        Ok(text) => print(&(text + &to_open(&args.out, &set))),
         Err(error) => report.refuse(not_written(&error)),
     }
 }
@@ -202,6 +204,34 @@ fn left_from_before(args: &BuildArgs, set: &[Artifact]) -> Result<String, WriteE
         return Ok(format!("  removed, as nothing makes it any more: {names}\n"));
     }
     Ok(format!("  made before, and not by this command: {names}; `--prune` removes it\n"))
+}
+
+/// The first file of each kind that a user opens, and how many more there are.
+fn to_open(out: &Path, set: &[Artifact]) -> String {
+    type IsOfKind = fn(folder: &str, name: &str) -> bool;
+    const KINDS: [(&str, IsOfKind); 4] = [
+        ("EDS", |folder, name| folder == "eds" && matches!(name.rsplit_once('.'), Some((_, "eds")))),
+        ("page", |folder, name| {
+            folder == "docs" && ["README.md", "index.html", "manual.html"].contains(&name)
+        }),
+        ("Rust", |folder, _| folder == "src"),
+        ("C", |folder, name| folder == "c" && (name == "OD.h" || name.ends_with("_od.h"))),
+    ];
+    let mut text = String::from("to open:\n");
+    for (kind, is_of_kind) in KINDS {
+        let mut paths = set.iter().map(|artifact| artifact.path.as_str()).filter(|path| {
+            let folder = path.split('/').next().unwrap_or_default();
+            is_of_kind(folder, path.rsplit('/').next().unwrap_or_default())
+        });
+        if let Some(first) = paths.next() {
+            let more = match paths.count() {
+                0 => String::new(),
+                more => format!(", and {more} more"),
+            };
+            let _ = writeln!(text, "  {kind:<4}  {}{more}", shown(&out.join(first)));
+        }
+    }
+    text
 }
 
 /// A specification that was compiled.

@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::{FAN, LAMP, MIXER, ROOF_FAN, Scratch, code, odgen, stderr, stdout};
 
-/// The four commands of the README, on files that were not made for them.
+/// The four commands of the book, on files that were not made for them.
 #[test]
 fn from_an_eds_to_documents_and_rust_in_four_commands() {
     for (name, eds) in [("mixer", MIXER), ("fan", FAN)] {

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod book;
 mod build;
 mod check;
 mod check_inputs;
@@ -34,7 +35,6 @@ mod parts;
 mod plant;
 mod program;
 mod provoked;
-mod readme;
 mod relay;
 mod serve;
 mod served;
@@ -43,6 +43,8 @@ mod specify;
 mod specs;
 mod st;
 mod texts;
+#[cfg(unix)]
+mod tutorial;
 mod xdd;
 
 use std::fs;

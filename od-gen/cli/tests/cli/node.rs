@@ -5,7 +5,7 @@ use std::process::{Output, Stdio};
 
 use insta::assert_snapshot;
 
-use crate::readme::shows;
+use crate::book::shows;
 use crate::served::Served;
 use crate::{Scratch, code, files, odgen, stderr, stdout};
 
@@ -338,9 +338,9 @@ fn nothing_is_changed_before_it_is_allowed() {
 }
 
 #[test]
-fn a_node_is_talked_to_as_the_readme_shows() {
-    let valve = include_str!("../../../../tests/readme/valve.od.yaml");
-    let bus = Bus::of("node-readme", "valve.od.yaml", valve);
+fn a_node_is_talked_to_as_the_book_shows() {
+    let valve = include_str!("../../../../tests/book/valve.od.yaml");
+    let bus = Bus::of("node-book", "valve.od.yaml", valve);
     let mut lines = Vec::new();
     for (command, rest) in [
         ("read", &["set pressure", "1018.1"][..]),
@@ -362,7 +362,7 @@ fn a_node_is_talked_to_as_the_readme_shows() {
         // The place is the command line.
         lines.extend(stderr(&output).lines().take_while(|line| !line.contains("-->")).map(str::to_owned));
     }
-    shows("node", lines.iter().map(String::as_str));
+    shows("guides/operator.md", "node", lines.iter().map(String::as_str));
 }
 
 /// In which state an entry is accepted matters only where its value is to be written.

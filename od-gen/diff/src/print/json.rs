@@ -1,4 +1,4 @@
-//! For programs; the format is described in `docs/json.md`.
+//! For programs; the format is described in `docs/book/formats/json.md`.
 
 use od_spec::model::Fact;
 use serde_json::{Value as Json, json};

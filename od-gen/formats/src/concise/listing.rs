@@ -71,7 +71,7 @@ impl<'a> Listing<'a> {
         format!("{}: {number} record{plural} for {} ({name}){of_node}\n", self.file, self.device.key)
     }
 
-    /// For programs; the format is described in `docs/json.md`.
+    /// For programs; the format is described in `docs/book/formats/json.md`.
     pub fn json(&self) -> String {
         let records: Vec<Json> =
             self.rows.iter().map(|(record, reading)| record_json(record, reading)).collect();

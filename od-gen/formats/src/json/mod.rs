@@ -1,4 +1,4 @@
-//! The resolved model as JSON, for programs and for comparisons. The format is described in `docs/json.md`.
+//! The resolved model as JSON, for programs and for comparisons. The format is described in `docs/book/formats/json.md`.
 
 mod device;
 mod document;

@@ -122,7 +122,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 43] = [
+pub(crate) static PARTS: [Part; 44] = [
     rust("form", "form", Tier::Check, form::check),
     rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
@@ -179,6 +179,7 @@ pub(crate) static PARTS: [Part; 43] = [
     reader("xdd", "EDS readers: XDD and XDC", Tier::Gate, readers::xdd_structure),
     reader("plant", "EDS readers: a plant", Tier::Gate, readers::plant),
     reader("values", "EDS readers: values of nodes", Tier::Gate, readers::values_of_nodes),
+    reader("book", "the book and its links", Tier::Gate, readers::book),
     reader("faults", "faults on a live bus", Tier::Gate, readers::faults),
     reader("dbc", "DBC readers", Tier::Gate, readers::dbc),
     reader("lsp", "language server", Tier::Gate, readers::language_server),

@@ -49,7 +49,7 @@ fn write_everything() -> Result<(System, SourceMap), Failure> {
     Ok((system, sources))
 }
 
-/// The drive of the README, and what `odgen new` starts with, read by every foreign reader.
+/// The drive of the book, and what `odgen new` starts with, read by every foreign reader.
 pub(crate) fn drives(runner: &mut Runner) -> Result<(), Failure> {
     let odgen = beside("odgen")?;
     let folder = root().join("target/drives");
@@ -67,7 +67,7 @@ pub(crate) fn drives(runner: &mut Runner) -> Result<(), Failure> {
         "started-io",
         &["--profile", "cia401", "--inputs", "20", "--outputs", "9", "--analogue-inputs", "6"],
     )?;
-    std::fs::copy(root().join("tests/readme/lift.od.yaml"), folder.join("lift.od.yaml"))?;
+    std::fs::copy(root().join("tests/book/lift.od.yaml"), folder.join("lift.od.yaml"))?;
     let mut dumps = Vec::new();
     for stem in ["lift", "started", "started-all", "started-io", "started-pp-hm"] {
         // What is to be filled in counts as filled in.
@@ -148,8 +148,8 @@ pub(crate) fn xdd_structure(runner: &mut Runner) -> Result<(), Failure> {
 pub(crate) fn plant(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let odgen = beside("odgen")?;
-    // Of the shipped devices, and what the README says step by step.
-    ["tests/readers/plant.py", "tests/readers/readme_plant.py"]
+    // Of the shipped devices, and what the book shows step by step.
+    ["tests/readers/plant.py", "tests/readers/book_plant.py"]
         .into_iter()
         .try_for_each(|script| runner.run(Command::new(&python).args([script, "--odgen"]).arg(&odgen)))
 }
@@ -168,6 +168,14 @@ pub(crate) fn faults(runner: &mut Runner) -> Result<(), Failure> {
     let odgen = beside("odgen")?;
     let arguments = ["tests/readers/fault_matrix.py", "--self-test", "--odgen"];
     runner.run(Command::new(&python).args(arguments).arg(&odgen))
+}
+
+/// The book: MkDocs follows each link and anchor, and takes no warning.
+pub(crate) fn book(runner: &mut Runner) -> Result<(), Failure> {
+    let Some(python) = python_of_readers(runner) else { return Ok(()) };
+    let arguments = ["-m", "mkdocs", "build", "--strict", "--config-file", "docs/mkdocs.yml"];
+    // It announces its successor otherwise.
+    runner.run(Command::new(&python).args(arguments).env("NO_MKDOCS_2_WARNING", "1"))
 }
 
 /// The Python that the readers are installed for, if that could be done.
@@ -200,9 +208,9 @@ pub(crate) fn structured_text(runner: &mut Runner, amount: Amount) -> Result<(),
     command.arg("tests/readers/st.py").args(sample(amount)).arg("--odgen").arg(beside("odgen")?);
     command.arg("--frames").arg(beside("pdo-frames")?);
     let (as_it_is, faulty, specs): (&[&str], &[&str], &[&str]) = match amount {
-        Amount::Sample => (&["limits"], &["readme/valve"], specs(amount)),
+        Amount::Sample => (&["limits"], &["book/valve"], specs(amount)),
         Amount::All => {
-            (&["limits", "everything"], &["readme/valve", "readme/lift", "readers/scales"], specs(amount))
+            (&["limits", "everything"], &["book/valve", "book/lift", "readers/scales"], specs(amount))
         }
     };
     for file in as_it_is {

@@ -16,7 +16,7 @@ pub(crate) fn prove(runner: &mut Runner, specs: &[&str], python: &Path, odgen: &
     let mut run = |script: &str, arguments: &[&str]| {
         runner.run(Command::new(python).arg(script).args(arguments).arg("--odgen").arg(odgen))
     };
-    run("tests/readers/readme_turbine.py", &[])?;
+    run("tests/readers/book_turbine.py", &[])?;
     run("tests/readers/traces.py", &[])?;
     run("tests/readers/confirmed.py", &[])?;
     run("tests/readers/bridge.py", &["--self-test"])?;

@@ -23,8 +23,8 @@ const SPECIFICATIONS: [&str; 11] = [
     "tests/shared/special-values.od.yaml",
     "tests/shared/settings.od.yaml",
     "tests/shared/coarse.od.yaml",
-    "tests/readme/lift.od.yaml",
-    "tests/readme/valve.od.yaml",
+    "tests/book/lift.od.yaml",
+    "tests/book/valve.od.yaml",
 ];
 
 /// The only device of a file, with its system.

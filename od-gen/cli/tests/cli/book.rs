@@ -1,7 +1,8 @@
-//! What the README shows of the command is what the command says.
+//! What the book shows of the command is what the command prints.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use od_bus::monitor::{Monitor, Shows};
 use od_bus::trace::{Decoder, Node, What};
@@ -9,55 +10,91 @@ use od_spec::source::SourceMap;
 
 use crate::{FAN, Scratch, odgen, stderr, stdout};
 
-/// The README.
-fn readme() -> String {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    fs::read_to_string(root.join("README.md")).unwrap()
+/// The folder of the book.
+fn book() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/book")
 }
 
-/// Demands that the README shows `lines` between its marks `<!-- mark -->` and `<!-- /mark -->`.
+fn page(name: &str) -> String {
+    fs::read_to_string(book().join(name)).unwrap()
+}
+
+/// What a page has between its marks `<!-- mark -->` and `<!-- /mark -->`, as a block of a language.
 #[track_caller]
-pub(crate) fn shows<'t>(mark: &str, lines: impl IntoIterator<Item = &'t str>) {
-    let readme = readme();
-    let indented = |line: &str| if line.is_empty() { String::new() } else { format!("    {line}") };
-    let screen: Vec<String> = lines.into_iter().map(indented).collect();
-    let (_, rest) = readme.split_once(&format!("<!-- {mark} -->\n")).unwrap();
-    let (block, _) = rest.split_once(&format!("<!-- /{mark} -->")).unwrap();
-    assert_eq!(block.trim(), screen.join("\n").trim(), "{mark}");
+fn block(name: &str, mark: &str, language: &str) -> String {
+    let page = page(name);
+    let (_, rest) = page.split_once(&format!("<!-- {mark} -->\n```{language}\n")).expect(mark);
+    rest.split_once(&format!("```\n<!-- /{mark} -->")).expect(mark).0.to_owned()
+}
+
+/// Demands that a page shows these lines between its marks. As snapshots are, they are written there with `INSTA_UPDATE=always`.
+#[track_caller]
+pub(crate) fn shows<'t>(name: &str, mark: &str, lines: impl IntoIterator<Item = &'t str>) {
+    /// Pages are written one after the other.
+    static PAGES: Mutex<()> = Mutex::new(());
+    let language = if mark == "specification" { "yaml" } else { "text" };
+    let _pages = PAGES.lock();
+    let (shown, screen) = (block(name, mark, language), lines.into_iter().collect::<Vec<_>>().join("\n"));
+    let screen = format!("{}\n", screen.trim_end());
+    if shown != screen && std::env::var("INSTA_UPDATE").is_ok_and(|how| how == "always") {
+        let page = page(name).replacen(
+            &format!("<!-- {mark} -->\n```{language}\n{shown}"),
+            &format!("<!-- {mark} -->\n```{language}\n{screen}"),
+            1,
+        );
+        fs::write(book().join(name), page).unwrap();
+        return;
+    }
+    assert_eq!(shown, screen, "{mark}");
 }
 
 #[test]
 fn the_screens_of_a_check_are_what_it_says() {
-    let scratch = Scratch::new("readme");
+    let scratch = Scratch::new("book");
     scratch.file("fan.eds", FAN);
     for (mark, arguments) in [("check", "check fan.eds"), ("for", "check fan.eds --for python-canopen")] {
         let said = stderr(&odgen(&scratch.0, &arguments.split(' ').collect::<Vec<_>>()));
         let command = format!("$ odgen {arguments}");
-        shows(mark, [command.as_str()].into_iter().chain(said.lines()));
+        shows("guides/plc.md", mark, [command.as_str()].into_iter().chain(said.lines()));
     }
 }
 
 #[test]
 fn the_way_from_an_eds_to_a_specification_is_as_shown() {
-    let scratch = Scratch::new("readme-ways");
+    let scratch = Scratch::new("book-ways");
     scratch.file("fan.eds", FAN);
     let fixed = odgen(&scratch.0, &["fix", "fan.eds"]);
     let (said, diff) = (stderr(&fixed), stdout(&fixed));
     let (_, counts) = said.split_once("note: fan.eds").unwrap();
     let counts = format!("note: fan.eds{counts}");
-    shows("fix", ["$ odgen fix fan.eds"].into_iter().chain(diff.lines()).chain([""]).chain(counts.lines()));
+    shows(
+        "guides/plc.md",
+        "fix",
+        ["$ odgen fix fan.eds"].into_iter().chain(diff.lines()).chain([""]).chain(counts.lines()),
+    );
     odgen(&scratch.0, &["fix", "fan.eds", "--write"]);
     let imported = stdout(&odgen(&scratch.0, &["import", "fan.eds"]));
-    shows("import", ["$ odgen import fan.eds"].into_iter().chain(imported.lines()));
+    shows("guides/plc.md", "import", ["$ odgen import fan.eds"].into_iter().chain(imported.lines()));
     let specification = fs::read_to_string(scratch.0.join("fan.od.yaml")).unwrap();
     let (_, objects) = specification.split_once("\nobjects:\n").unwrap();
-    shows("specification", ["objects:"].into_iter().chain(objects.lines()));
+    shows("guides/plc.md", "specification", ["objects:"].into_iter().chain(objects.lines()));
+}
+
+#[test]
+fn a_setting_is_checked_as_shown() {
+    let scratch = Scratch::new("book-setting");
+    scratch.file("valve.od.yaml", include_str!("../../../../tests/book/valve.od.yaml"));
+    let output =
+        odgen(&scratch.0, &["dcf", "valve.od.yaml", "--node", "5", "--set", "set pressure=17.0 bar"]);
+    let command = "$ odgen dcf valve.od.yaml --node 5 --set \"set pressure=17.0 bar\"";
+    let said = stderr(&output);
+    shows("guides/specification.md", "setting", [command].into_iter().chain(said.lines()));
 }
 
 #[test]
 fn the_trace_is_reported_as_shown() {
-    let scratch = Scratch::new("readme-decode");
-    scratch.file("valve.od.yaml", include_str!("../../../../tests/readme/valve.od.yaml"));
+    let scratch = Scratch::new("book-decode");
+    scratch.file("valve.od.yaml", include_str!("../../../../tests/book/valve.od.yaml"));
     let lines = "\
 (12.500) can0 705#00
 (12.620) can0 605#2B002000A5000000
@@ -67,13 +104,17 @@ fn the_trace_is_reported_as_shown() {
     scratch.file("bus.log", lines);
     let arguments = "decode valve.od.yaml --node 5 --trace bus.log";
     let told = stdout(&odgen(&scratch.0, &arguments.split(' ').collect::<Vec<_>>()));
-    shows("decode", [format!("$ odgen {arguments}").as_str()].into_iter().chain(told.lines()));
+    shows(
+        "guides/virtual-nodes.md",
+        "decode",
+        [format!("$ odgen {arguments}").as_str()].into_iter().chain(told.lines()),
+    );
 }
 
 #[test]
 fn the_bus_is_watched_as_shown() {
     let mut sources = SourceMap::new();
-    let root = sources.add("valve.od.yaml", include_str!("../../../../tests/readme/valve.od.yaml"));
+    let root = sources.add("valve.od.yaml", include_str!("../../../../tests/book/valve.od.yaml"));
     let system = od_spec::compile(&mut sources, root, &mut od_spec::NoFiles).system.unwrap();
     let decoder = Decoder::new(vec![Node::new(5, &system, &system.devices[0])]);
     let mut monitor = Monitor::new(decoder, Shows::default(), 0);
@@ -85,16 +126,14 @@ fn the_bus_is_watched_as_shown() {
         told.extend(monitor.take(&What::Frame(frame), at * 1000));
     }
     told.extend(monitor.poll(monitor.next_deadline().unwrap()));
-    shows("monitor", told.iter().map(String::as_str));
+    shows("guides/operator.md", "monitor", told.iter().map(String::as_str));
 }
 
 #[test]
 fn the_parameter_file_is_one_of_the_valve() {
-    let scratch = Scratch::new("readme-parameters");
-    scratch.file("valve.od.yaml", include_str!("../../../../tests/readme/valve.od.yaml"));
-    let readme = readme();
-    let (_, rest) = readme.split_once("<!-- parameters -->\n```yaml\n").unwrap();
-    scratch.file("valve-5.yaml", rest.split_once("```").unwrap().0);
+    let scratch = Scratch::new("book-parameters");
+    scratch.file("valve.od.yaml", include_str!("../../../../tests/book/valve.od.yaml"));
+    scratch.file("valve-5.yaml", block("guides/plant.md", "parameters", "yaml"));
     let dcf = odgen(&scratch.0, &["dcf", "valve.od.yaml", "--params", "valve-5.yaml", "--out", "saved.dcf"]);
     assert_eq!(stderr(&dcf), "");
     let text = fs::read_to_string(scratch.0.join("saved.dcf")).unwrap();
@@ -112,13 +151,10 @@ fn the_parameter_file_is_one_of_the_valve() {
 /// From an empty folder: the specification, the plant file, and the commands as they are there.
 #[test]
 fn the_plant_is_built_by_the_commands_that_are_shown() {
-    let scratch = Scratch::new("readme-plant");
-    scratch.file("valve.od.yaml", include_str!("../../../../tests/readme/valve.od.yaml"));
-    let readme = readme();
-    let (_, rest) = readme.split_once("<!-- plant -->\n```yaml\n").unwrap();
-    scratch.file("plant.yaml", rest.split_once("```").unwrap().0);
-    let (_, rest) = readme.split_once("<!-- plant-commands -->\n").unwrap();
-    let commands = rest.split_once("<!-- /plant-commands -->").unwrap().0;
+    let scratch = Scratch::new("book-plant");
+    scratch.file("valve.od.yaml", include_str!("../../../../tests/book/valve.od.yaml"));
+    scratch.file("plant.yaml", block("guides/plant.md", "plant", "yaml"));
+    let commands = block("guides/plant.md", "plant-commands", "sh");
     let mut said = Vec::new();
     for line in
         commands.lines().map(|line| line.split('#').next().unwrap().trim()).filter(|line| !line.is_empty())

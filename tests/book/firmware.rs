@@ -1,5 +1,5 @@
 mod valve {
-    od_macros::object_dictionary!("readme/valve.od.yaml");
+    od_macros::object_dictionary!("book/valve.od.yaml");
 }
 
 use firmware_glue::{Application, Special, pdo};

@@ -1,9 +1,9 @@
-"""Do what the README's chapters about commissioning say, from an empty folder, and put every DCF through lely's dcfchk.
+"""Do what the book's guide to nodes and plants shows, from an empty folder, and put every DCF through lely's dcfchk.
 
-    readme_plant.py --odgen FILE [--readme FILE]
+    book_plant.py --odgen FILE
 
-The files and the commands are the README's own: what is between its marks. A command that fails, or says anything on
-standard error, is a complaint; so is what dcfchk says of a DCF.
+The files and the commands are those of the page: what is between its marks. A command that fails, or prints anything on
+standard error, is a complaint; so is what dcfchk prints about a DCF.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -20,18 +21,18 @@ from compare import Job
 from lely_dcfchk import dcfchk
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-FILES = {"spec": "valve.od.yaml", "parameters": "valve-5.yaml", "plant": "plant.yaml"}
-"""What is between marks of the README, and the name that its text gives it."""
+BOOK = ROOT / "docs" / "book"
+FILES = {"parameters": "valve-5.yaml", "plant": "plant.yaml"}
+"""What is between marks of the page, and the name that its text gives it."""
 COMMANDS = ("node-commands", "plant-commands")
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--odgen", required=True, type=Path)
-    parser.add_argument("--readme", type=Path, default=ROOT / "README.md")
     arguments = parser.parse_args()
     odgen = arguments.odgen.resolve()
-    readme = arguments.readme.read_text(encoding="utf-8")
+    page = (BOOK / "guides" / "plant.md").read_text(encoding="utf-8")
     complaints = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name, "valves")
@@ -39,11 +40,13 @@ def main() -> int:
         programs = Path(name, "bin")
         programs.mkdir()
         programs.joinpath("odgen").symlink_to(odgen)
+        shutil.copy(ROOT / "tests" / "book" / "valve.od.yaml", folder)
+        for file in ("valve.od.yaml", *FILES.values()):
+            if f"`{file}`" not in page:
+                complaints.append(f"the page does not call anything `{file}`")
         for mark, file in FILES.items():
-            if f"`{file}`" not in readme:
-                complaints.append(f"README.md does not call anything `{file}`")
-            (folder / file).write_text(fenced(between(readme, mark)), encoding="utf-8")
-        commands = [line for mark in COMMANDS for line in lines(between(readme, mark))]
+            (folder / file).write_text(between(page, mark), encoding="utf-8")
+        commands = [line for mark in COMMANDS for line in lines(between(page, mark))]
         for command in commands:
             complaints += run(command, folder, programs)
         dcfs = sorted(folder.rglob("*.dcf"))
@@ -54,24 +57,19 @@ def main() -> int:
             complaints += [f"{path.relative_to(folder)}: {said}" for said in dcfchk(Job(path, node_of(path), None))]
     for complaint in complaints:
         print(complaint)
-    print(f"{len(commands)} commands of the README, {len(dcfs)} DCF files: {len(complaints)} complaints")
+    print(f"{len(commands)} commands of the book, {len(dcfs)} DCF files: {len(complaints)} complaints")
     return 1 if complaints or len(commands) < 8 else 0
 
 
-def between(readme: str, mark: str) -> str:
-    found = re.search(rf"<!-- {mark} -->\n(.*?)<!-- /{mark} -->", readme, re.DOTALL)
-    assert found, f"README.md has no {mark}"
-    return found.group(1)
-
-
-def fenced(block: str) -> str:
-    found = re.search(r"```yaml\n(.*?)```", block, re.DOTALL)
-    assert found, block
+def between(page: str, mark: str) -> str:
+    """The block of code between the marks."""
+    found = re.search(rf"<!-- {mark} -->\n```\w+\n(.*?)```\n<!-- /{mark} -->", page, re.DOTALL)
+    assert found, f"there is no {mark}"
     return found.group(1)
 
 
 def lines(block: str) -> list[str]:
-    """The commands, as a person copies them: the remark after each is one for the shell, too."""
+    """The commands, as a user copies them: the remark after each is one for the shell, too."""
     return [line.strip() for line in block.splitlines() if line.strip()]
 
 

@@ -1,16 +1,15 @@
-"""Do what the README's chapter about the turbine says, and compare every screen with what it shows.
+"""Do what the book's chapter about the turbine shows, and compare every screen with it.
 
-    readme_turbine.py --odgen FILE [--readme FILE] [--mend]
+    book_turbine.py --odgen FILE [--mend]
 
-The commands, the program for python-canopen and the screens are the README's own: what is between its marks. Only the port is another
-one, that `odgen serve` finds free, and the program has more patience with a busy machine. With `--mend` the README gets the screens of this run, to be read before they are kept.
+The commands, the program for python-canopen and the screens are those of the page: what is between its marks. Only the port is another
+one, that `odgen serve` finds free, and the program has more patience with a busy machine. With `--mend` the page gets the screens of this run, to be read before they are kept.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
-import re
 import shlex
 import subprocess
 import sys
@@ -19,43 +18,43 @@ import time
 from pathlib import Path
 
 from patience import PATIENCE
-from readme_plant import ROOT, between
+from book_plant import BOOK, ROOT, between
 
 PORT = 3333
-"""The port that the README has."""
+"""The port that the page has."""
+PAGE = BOOK / "guides" / "operator.md"
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--odgen", required=True, type=Path)
-    parser.add_argument("--readme", type=Path, default=ROOT / "README.md")
     parser.add_argument("--mend", action="store_true")
     arguments = parser.parse_args()
     began = time.monotonic()
-    readme = arguments.readme.read_text(encoding="utf-8")
+    page = PAGE.read_text(encoding="utf-8")
     with tempfile.TemporaryDirectory() as name:
-        screens = Desk(Path(name), arguments.odgen.resolve(), readme).screens()
+        screens = Desk(Path(name), arguments.odgen.resolve(), page).screens()
     complaints, commands = [], 0
     for mark, screen in screens.items():
-        shown = between(readme, mark)
-        commands += shown.count("    $ ")
+        shown = between(page, mark)
+        commands += sum(line.startswith("$ ") for line in shown.splitlines())
         if shown != screen:
-            complaints.append(f"{mark}: README.md shows\n{shown}but it is\n{screen}")
-            readme = readme.replace(f"<!-- {mark} -->\n{shown}", f"<!-- {mark} -->\n{screen}")
+            complaints.append(f"{mark}: the page shows\n{shown}but it is\n{screen}")
+            page = page.replace(f"<!-- {mark} -->\n```text\n{shown}", f"<!-- {mark} -->\n```text\n{screen}")
     if arguments.mend:
-        arguments.readme.write_text(readme, encoding="utf-8")
+        PAGE.write_text(page, encoding="utf-8")
     for complaint in complaints:
         print(complaint)
-    print(f"a turbine on the desk: {commands} commands of the README, {len(complaints)} screens differ, {time.monotonic() - began:.1f} s")
+    print(f"a turbine on the desk: {commands} commands of the book, {len(complaints)} screens differ, {time.monotonic() - began:.1f} s")
     print(f"{len(screens) - len(complaints)} passed, {len(complaints)} failed")
     return 1 if complaints or commands < 7 else 0
 
 
 class Desk:
-    """A folder that looks as the repository does, and programs of the names that the README uses."""
+    """A folder that looks as the repository does, and programs of the names that the page uses."""
 
-    def __init__(self, folder: Path, odgen: Path, readme: str) -> None:
-        self.readme = readme
+    def __init__(self, folder: Path, odgen: Path, page: str) -> None:
+        self.page = page
         self.folder = folder / "repository"
         self.folder.mkdir()
         for part in ("od-spec", "generated"):
@@ -73,13 +72,13 @@ class Desk:
         """Lets the programs use a port, 0 one that is free."""
         self.port = port
         program(self.programs / "odgen", f'exec {shlex.quote(str(self.odgen))} "$@" --slcan tcp:127.0.0.1:{port}')
-        script = re.search(r"```python\n(.*?)```", between(self.readme, "turbine-python"), re.DOTALL)
-        assert script and "`blade_b.py`" in self.readme
-        text = f"import patience\n{script[1].replace(str(PORT), str(port))}"
+        assert "`blade_b.py`" in self.page
+        script = between(self.page, "turbine-python")
+        text = f"import patience\n{script.replace(str(PORT), str(port))}"
         self.folder.joinpath("blade_b.py").write_text(text, encoding="utf-8")
 
     def screens(self) -> dict[str, str]:
-        """What a person sees, by the mark of the README."""
+        """What a user sees, by the mark of the page."""
         (command,) = self.commands("turbine-serve")
         serving = subprocess.Popen(
             ["sh", "-c", f"exec {command}"], cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, text=True
@@ -97,8 +96,8 @@ class Desk:
         return screens
 
     def commands(self, mark: str) -> list[str]:
-        lines = between(self.readme, mark).splitlines()
-        return [line.removeprefix("    $ ") for line in lines if line.startswith("    $ ")]
+        lines = between(self.page, mark).splitlines()
+        return [line.removeprefix("$ ") for line in lines if line.startswith("$ ")]
 
     def said(self, command: str) -> str:
         """What a command says on either channel."""
@@ -116,8 +115,7 @@ class Desk:
         return done.stdout
 
     def screen(self, command: str, said: str) -> str:
-        lines = [f"$ {command}", *said.replace(str(self.port), str(PORT)).splitlines()]
-        return "".join(f"    {line}\n" if line else "\n" for line in lines)
+        return f"$ {command}\n{said.replace(str(self.port), str(PORT))}"
 
 
 def program(path: Path, text: str) -> None:

@@ -1,7 +1,7 @@
-//! The firmware in the README does what it says, and the files that CONTRIBUTING names exist.
+//! The firmware in the book does what it says, and the files that CONTRIBUTING names exist.
 
 mod fragment {
-    include!("../../readme/firmware.rs");
+    include!("../../book/firmware.rs");
 
     #[test]
     fn the_fragment_takes_a_set_point_and_sends_a_pressure() {
@@ -17,6 +17,37 @@ mod fragment {
         assert_eq!(od.actual_pressure(), Special::Value(Decibar(119)));
         assert_eq!(format!("{:?}", hardware.set_point), "12.0 bar");
         assert_eq!(od.set_pressure(), Decibar(120));
+    }
+}
+
+/// A front page is read in a minute.
+#[test]
+fn the_front_page_is_short_and_names_the_versions_of_rust() {
+    let read = |path: &str| std::fs::read_to_string(od_tests::root().join(path)).expect("it can be read");
+    let version = |manifest: &str| {
+        let manifest = read(manifest);
+        let line = manifest.lines().find_map(|line| line.strip_prefix("rust-version = "));
+        line.expect("a version of Rust").trim_matches('"').to_owned()
+    };
+    let (tools, firmware) = (version("Cargo.toml"), version("firmware-glue/Cargo.toml"));
+    let readme = read("README.md");
+    assert!(readme.len() <= 10_000, "{} bytes", readme.len());
+    assert!(
+        readme.contains(&format!("{tools} for the tools, {firmware} for generated code")),
+        "{tools}, {firmware}"
+    );
+    let stability = read("docs/book/stability.md");
+    assert!(stability.contains(&format!("need Rust {tools}, `firmware-glue` and generated code {firmware}")));
+}
+
+/// A browser shows nothing of a picture that is no XML.
+#[test]
+fn pictures_are_well_formed() {
+    for name in ["page", "message"] {
+        let path = od_tests::root().join(format!("docs/book/images/{name}.svg"));
+        let text = std::fs::read_to_string(path).expect("it can be read");
+        let picture = roxmltree::Document::parse(&text).expect("it is XML");
+        assert_eq!(picture.root_element().tag_name().name(), "svg");
     }
 }
 
