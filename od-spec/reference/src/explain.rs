@@ -1,10 +1,15 @@
-//! What a code means: what `odgen explain` prints and `docs/messages.md` holds.
+//! What a code means.
 
 use std::fmt::Write as _;
 
 use od_readers::stumbling;
 use od_spec::diag::Code;
 use od_spec::diag::readers::Evidence;
+
+/// What `odgen explain` prints about a code, as Markdown: its title, and its [`explanation`].
+pub fn explained(code: &Code) -> String {
+    format!("{code} ({}): {}\n\n{}", code.severity.word(), code.title, explanation(code))
+}
 
 /// What a code means, as Markdown: explanation, clause, and an example before and after.
 pub fn explanation(code: &Code) -> String {

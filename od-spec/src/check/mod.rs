@@ -1,5 +1,5 @@
 //! The rules, one file each, named after the fact that they establish. A rule's file holds its code, what it means, an
-//! example before and after, and the check itself; `odgen explain` and `docs/messages.md` are printed from there.
+//! example before and after, and the check itself; `odgen explain` and `docs/book/messages/` are printed from there.
 //!
 //! Rules see the model and nothing else: a value may have been written in a specification, in a library, or in a setting
 //! laid over both; the place of a message comes from the fact that it is about.

@@ -279,7 +279,8 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
             [content] => {
                 contents.check(&content.value, diagnostics);
                 let is_prose = matches!(content.value, ContentDecl::Prose(..));
-                if let Some(figure) = decl.figure.as_ref().filter(|_| !is_prose && !is_drawn(&content.value)) {
+                if let Some(figure) = decl.figure.as_ref().filter(|_| !is_prose && !is_drawn(&content.value))
+                {
                     let message = "nothing is drawn of this content, so that it is no figure";
                     diagnostics.push(
                         Diagnostic::new(codes::CONFLICTING_KEYS, figure.span, message)
@@ -296,16 +297,8 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
                     );
                 }
             }
-            [first, second, ..] => diagnostics.push(
-                Diagnostic::new(codes::CONFLICTING_KEYS, second.span, "a text or table is one of these keys only")
-                    .with(first.span, "the first stands here")
-                    .help("keep one of the keys, or make two of it"),
-            ),
-            [] if decl.unsure => {}
-            [] => diagnostics.push(
-                Diagnostic::new(codes::MISSING_KEY, decl.span, "nothing says which text or table this is")
-                    .help("write one of `text`, `warning`, `overview`, `objects`, `bits`, `values`, `errors`, `rows`, …"),
-            ),
+            // Reported by the keys of a text or table.
+            _ => {}
         }
     }
 }

@@ -209,7 +209,7 @@ fn write() -> Result<(), Failure> {
         println!("{} {path}", if changed { "wrote" } else { "     " });
     }
     for path in generate::prune()? {
-        println!("removed generated/{path}");
+        println!("removed {path}");
     }
     Ok(())
 }
@@ -220,8 +220,6 @@ fn check() -> Result<(), Failure> {
     }
     match generate::left()?.first() {
         None => Ok(()),
-        Some(path) => {
-            Err(format!("nothing makes generated/{path} any more\nrun `cargo xtask generate`").into())
-        }
+        Some(path) => Err(format!("nothing makes {path} any more\nrun `cargo xtask generate`").into()),
     }
 }
