@@ -45,7 +45,9 @@ pub(super) fn check_map(node: &Node, keys: &Keys, owner: Span, diagnostics: &mut
     // A key that is unknown may have been meant for the one that is missing.
     if is_sure {
         let broken = keys.choices.iter().find_map(|choice| check_choice(*choice, entries, keys, owner));
-        broken.into_iter().for_each(|diagnostic| diagnostics.push(diagnostic));
+        if let Some(diagnostic) = broken {
+            diagnostics.push(diagnostic);
+        }
     }
 }
 
@@ -68,12 +70,12 @@ fn check_choice(
     match (choice, written.as_slice()) {
         (Choice::One(all) | Choice::Any(all), []) => {
             let names: Vec<String> = all.iter().map(|key| format!("`{key}`")).collect();
-            let list = names.join(" or ");
             let message = match all.len() {
-                0..=4 => format!("{} needs the key {list}", keys.name),
+                0..=4 => format!("{} needs the key {}", keys.name, names.join(" or ")),
                 count => format!("{} needs one of {count} keys", keys.name),
             };
-            Some(Diagnostic::new(codes::MISSING_KEY, owner, message).help(format!("add {list}")))
+            let help = format!("add one of {}", names.join(", "));
+            Some(Diagnostic::new(codes::MISSING_KEY, owner, message).help(help))
         }
         (Choice::One(_), [first, second, ..]) => {
             let message = format!("`{}` and `{}` exclude each other", first.value, second.value);

@@ -13,7 +13,7 @@ use crate::model::{
     BitField, Entry, EntryId, Level, NamedBits, Signal, SignalCarrier, Timing, TimingStep, TypeKind, Value,
 };
 use crate::scalar;
-use crate::source::{Span, Spanned};
+use crate::source::Spanned;
 use crate::wording::{allowed, format_value};
 
 /// What a signal is, with what its levels are read against.

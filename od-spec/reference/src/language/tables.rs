@@ -69,7 +69,10 @@ fn required(key: &Key, keys: &Keys) -> &'static str {
 
 /// How keys depend on each other.
 fn sentence(choice: Choice) -> String {
-    let names = joined(choice.keys(), "and");
+    let names = match choice.keys() {
+        keys @ ([] | [_] | [_, _] | [_, _, _] | [_, _, _, _]) => joined(keys, "and"),
+        _ => "the keys marked \"one of\"".to_owned(),
+    };
     match choice {
         Choice::One(_) => format!("Exactly one of {names} is required."),
         Choice::Any(_) => format!("At least one of {names} is required."),
