@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::decode;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::files::{self, Loader};
-use crate::keys::{PART, PART_OF, PARTS};
+use crate::keys::{Need, PART, PART_OF, PARTS};
 use crate::source::{FileId, SourceMap, Span, Spanned};
 use crate::yaml::{self, Node, NodeKind};
 
@@ -118,7 +118,7 @@ fn file_name(path: &str) -> &str {
 /// Puts the sections of a part after those of the specification. What is not a section was refused already.
 fn take(root: &mut Node, part: Node, diagnostics: &mut Diagnostics) {
     let (NodeKind::Map(sections), NodeKind::Map(taken)) = (&mut root.kind, part.kind) else { return };
-    let is_section = |key: &str| PART.get(key).is_some_and(|key| !key.required);
+    let is_section = |key: &str| PART.get(key).is_some_and(|key| key.need != Need::Required);
     for (name, node) in taken.into_iter().filter(|(name, _)| is_section(&name.value)) {
         match sections.iter_mut().find(|(section, _)| section.value == name.value) {
             Some((_, section)) => extend(section, node, diagnostics),

@@ -1,13 +1,15 @@
 //! Everything that is generated and checked in.
 
-use std::fmt::Write as _;
+use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
 use od_documents::{self as docs, Templates};
 use od_formats::{Selection, artifacts};
 use od_gen::Artifact;
 use od_gen::files::{left_over, remove};
 use od_gen::rust::{self, Provenance};
+use od_reference::Page;
 use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
@@ -50,13 +52,39 @@ fn shipped() -> Result<Vec<GeneratedFile>, Failure> {
 /// # Errors
 /// As [`all`].
 pub fn texts() -> Result<Vec<GeneratedFile>, Failure> {
-    let texts = [
-        ("od-spec/schema/od.schema.json", od_reference::json_schema()),
-        ("docs/book/language/index.md", od_reference::reference()),
-        ("docs/book/messages/index.md", messages()),
-    ];
-    let texts = texts.into_iter().map(|(path, text)| (path.to_owned(), text.into_bytes()));
-    Ok(texts.chain(pages()?).collect())
+    let schema = ("od-spec/schema/od.schema.json".to_owned(), od_reference::json_schema().into_bytes());
+    Ok([schema].into_iter().chain(reference_pages()).chain(pages()?).collect())
+}
+
+/// The folders of the book that contain nothing but generated pages.
+const LANGUAGE: &str = "docs/book/language";
+const MESSAGES: &str = "docs/book/messages";
+
+/// The pages of the book that consist of what the compiler knows.
+fn reference_pages() -> impl Iterator<Item = GeneratedFile> {
+    let folders = [(LANGUAGE, od_reference::language_pages()), (MESSAGES, od_reference::message_pages())];
+    folders.into_iter().flat_map(|(folder, pages)| {
+        pages.into_iter().map(move |Page { file, text }| (format!("{folder}/{file}"), text.into_bytes()))
+    })
+}
+
+/// The pages below a root that nothing makes any more, such as that of a code that is gone.
+///
+/// # Errors
+/// A folder cannot be read.
+pub fn left_pages(root: &Path) -> Result<Vec<String>, Failure> {
+    let made: BTreeSet<String> = reference_pages().map(|(path, _)| path).collect();
+    let mut left = Vec::new();
+    for folder in [LANGUAGE, MESSAGES] {
+        for entry in fs::read_dir(root.join(folder))? {
+            let path = format!("{folder}/{}", entry?.file_name().to_string_lossy());
+            if !made.contains(&path) {
+                left.push(path);
+            }
+        }
+    }
+    left.sort();
+    Ok(left)
 }
 
 /// The reference documentation of a specification.
@@ -96,11 +124,18 @@ pub fn write_all() -> Result<Vec<(String, bool)>, Failure> {
     Ok(report)
 }
 
-/// Generated files that nothing makes any more.
+/// Generated files that nothing makes any more, below the root.
 ///
 /// # Errors
 /// As [`all`], or a file cannot be read.
 pub fn left() -> Result<Vec<String>, Failure> {
+    let below = |path: String| format!("generated/{path}");
+    let left = left_files()?.into_iter().map(below);
+    Ok(left.chain(left_pages(&root())?).collect())
+}
+
+/// Those below `generated/`.
+fn left_files() -> Result<Vec<String>, Failure> {
     let files = shipped()?.into_iter().map(|(path, bytes)| {
         let path = path.trim_start_matches("generated/").to_owned();
         Artifact { path, bytes, purpose: String::new() }
@@ -108,13 +143,16 @@ pub fn left() -> Result<Vec<String>, Failure> {
     Ok(left_over(&root().join("generated"), &files.collect::<Vec<_>>())?)
 }
 
-/// Removes what was generated before and is not any more; returns which files.
+/// Removes the files of [`left`], and returns them.
 ///
 /// # Errors
 /// As [`left`], or a file cannot be removed.
 pub fn prune() -> Result<Vec<String>, Failure> {
     let left = left()?;
-    remove(&root().join("generated"), &left)?;
+    remove(&root().join("generated"), &left_files()?)?;
+    for page in left_pages(&root())? {
+        fs::remove_file(root().join(page))?;
+    }
     Ok(left)
 }
 
@@ -134,17 +172,4 @@ pub fn first_difference(files: Vec<GeneratedFile>) -> Option<String> {
         }
     }
     None
-}
-
-/// The page of messages: every code with its explanation.
-fn messages() -> String {
-    let mut text = String::from(
-        "# Messages\n\nEvery message of the compiler has a stable code. `odgen explain CODE` prints what is written here.\n",
-    );
-    for code in od_spec::all_codes() {
-        let severity = code.severity.word();
-        let _ =
-            write!(text, "\n## {code}: {}\n\n*{severity}* — {}", code.title, od_reference::explanation(code));
-    }
-    text
 }

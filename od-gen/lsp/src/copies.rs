@@ -12,7 +12,6 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use lsp_types::Uri;
 use od_gen::Artifact;
 use od_gen::files::{Existing, write_set};
-use od_reference::explanation;
 use od_spec::LIBRARIES;
 use od_spec::diag::Code;
 
@@ -50,8 +49,7 @@ pub(super) fn library(name: &str) -> Option<Uri> {
 
 /// The URI of a file with what `odgen explain` says about a code.
 pub(super) fn explained(code: &Code) -> Option<Uri> {
-    let text = || format!("# {code}: {}\n\n{}", code.title, explanation(code));
-    copy(format!("messages/{code}.md"), text)
+    copy(format!("messages/{code}.md"), || format!("# {}", od_reference::explained(code)))
 }
 
 /// The files that were looked at, each with its URI if it is there.

@@ -6,6 +6,11 @@ use od_readers::stumbling;
 use od_spec::diag::Code;
 use od_spec::diag::readers::Evidence;
 
+/// What `odgen explain` prints about a code, as Markdown: its title, and its [`explanation`].
+pub fn explained(code: &Code) -> String {
+    format!("{code} ({}): {}\n\n{}", code.severity.word(), code.title, explanation(code))
+}
+
 /// What a code means, as Markdown: explanation, clause, and an example before and after.
 pub fn explanation(code: &Code) -> String {
     let mut out = format!("{}\n", code.explanation);

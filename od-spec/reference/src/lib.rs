@@ -5,10 +5,14 @@
 mod explain;
 mod json_schema;
 mod language;
+mod messages;
+mod page;
 
-pub use explain::explanation;
+pub use explain::{explained, explanation};
 pub use json_schema::{json_schema, parameter_schema, plant_schema, plant_schema_of};
-pub use language::reference;
+pub use language::{language_pages, reference};
+pub use messages::message_pages;
+pub use page::Page;
 
 /// The README's examples compile and run.
 #[cfg(doctest)]

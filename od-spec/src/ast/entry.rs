@@ -18,7 +18,7 @@ enum Reach {
 
 macro_rules! entry_decl {
     ($($group:ident {
-        $($key:literal: $shape:expr => $field:ident: $type:ty, $fact:ident, $reach:ident, $about:literal
+        $($key:literal $($need:ident)?: $shape:expr => $field:ident: $type:ty, $fact:ident, $reach:ident, $about:literal
             $(, $example:literal)? $(, sub0 $sub0:literal)?;)+
     })+) => {
         /// What is written about an entry, at the entry itself or at something it inherits from.

@@ -27,8 +27,8 @@ pub(crate) use pdos::{
     MappingKind, PdoCommunicationDecl, PdoDecl, PdoMappingDecl, PdoParameterDecl, PdoParametersDecl, PdosDecl,
 };
 
+pub(crate) use setting::Reference;
 pub use setting::SettingDecl;
-pub(crate) use setting::{CONSUMER_KEYS, Reference};
 pub use texts::Untranslated;
 pub(crate) use texts::{Named, TextMention};
 
@@ -38,7 +38,7 @@ pub(crate) type Name = Spanned<String>;
 /// The structure of a table of [`crate::keys`]: first what is known without its keys, then a field for each key.
 macro_rules! declaration {
     ($(#[$meta:meta])* $name:ident { $($(#[$head_meta:meta])* $head:ident: $head_type:ty,)* } {
-        $($key:literal $($required:ident)?: $shape:expr => $field:ident: $type:ty, $about:literal
+        $($key:literal $($need:ident)?: $shape:expr => $field:ident: $type:ty, $about:literal
             $(, $example:literal)?;)+
     }) => {
         $(#[$meta])*
@@ -46,9 +46,41 @@ macro_rules! declaration {
             $($(#[$head_meta])* pub $head: $head_type,)*
             $(pub $field: $type,)+
         }
+
+        impl $crate::ast::Lacking for $name {
+            fn lacking(&self) -> Vec<&'static str> {
+                let lacking: &[Option<&str>] = &[$($(declaration!(@$need $key, self.$field),)?)+];
+                lacking.iter().flatten().copied().collect()
+            }
+        }
     };
+    (@required $key:literal, $field:expr) => { None };
+    (@inherited $key:literal, $field:expr) => { $field.is_empty().then_some($key) };
 }
 use declaration;
+
+/// A declaration that may take keys from a library.
+pub(crate) trait Lacking {
+    /// The keys that it needs and has neither of its own nor from elsewhere.
+    fn lacking(&self) -> Vec<&'static str>;
+}
+
+/// A field of a declaration that may have nothing in it.
+trait MayBeEmpty {
+    fn is_empty(&self) -> bool;
+}
+
+impl<T> MayBeEmpty for Vec<T> {
+    fn is_empty(&self) -> bool {
+        self.as_slice().is_empty()
+    }
+}
+
+impl<T> MayBeEmpty for Option<T> {
+    fn is_empty(&self) -> bool {
+        self.is_none()
+    }
+}
 
 /// One file.
 #[derive(Debug)]
@@ -496,9 +528,6 @@ pub(crate) struct SectionDecl {
 /// A text or table of a section.
 #[derive(Debug)]
 pub(crate) struct PartDecl {
-    /// A key was refused.
-    pub unsure: bool,
-    pub span: Span,
     pub number: Option<Spanned<i128>>,
     pub title: Words,
     pub figure: Option<Spanned<FigureDecl>>,
@@ -521,10 +550,7 @@ timing_keys! { declaration
 
 signal_keys! { declaration
     #[derive(Debug)]
-    SignalDecl {
-        /// Something here was refused.
-        unsure: bool,
-    }
+    SignalDecl {}
 }
 
 /// The levels of a signal, of which none was refused.
@@ -538,10 +564,7 @@ timing_step_keys! { declaration
 
 switch_keys! { declaration
     #[derive(Debug)]
-    SwitchDecl {
-        /// Something here was refused.
-        unsure: bool,
-    }
+    SwitchDecl {}
 }
 
 block_keys! { declaration
@@ -571,10 +594,7 @@ mark_keys! { declaration
 
 span_keys! { declaration
     #[derive(Debug)]
-    SpanDecl {
-        /// Something here was refused.
-        unsure: bool,
-    }
+    SpanDecl {}
 }
 
 #[derive(Debug)]

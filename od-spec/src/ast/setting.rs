@@ -1,10 +1,8 @@
 //! Settings as they are written: in a text, or as the entries of a YAML map.
 
 use super::{DefaultDecl, Name};
+use crate::keys::CONSUMER;
 use crate::source::{Span, Spanned};
-
-/// The keys of a heartbeat consumer, the value of an entry of 1016h: `{node: 7, time: 1000 ms}`.
-pub(crate) const CONSUMER_KEYS: [&str; 2] = ["node", "time"];
 
 /// A setting as it is written: which entry, and its value.
 #[derive(Debug, Clone)]
@@ -41,7 +39,7 @@ impl SettingDecl {
         };
         // `1016.1: {node: 7, time: 1 s}` is the value of one entry.
         let is_value = |members: &[(Name, Spanned<DefaultDecl>)]| {
-            key.value.contains('.') && members.iter().all(|(name, _)| CONSUMER_KEYS.contains(&&*name.value))
+            key.value.contains('.') && members.iter().all(|(name, _)| CONSUMER.get(&name.value).is_some())
         };
         match &value.value {
             DefaultDecl::ByDevice(members) if !is_value(members) => members

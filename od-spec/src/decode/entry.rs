@@ -12,7 +12,7 @@ use crate::yaml::NodeKind;
 
 macro_rules! entry_reader {
     ($($group:ident {
-        $($key:literal: $shape:expr => $field:ident: $type:ty, $fact:ident, $reach:ident, $about:literal
+        $($key:literal $($need:ident)?: $shape:expr => $field:ident: $type:ty, $fact:ident, $reach:ident, $about:literal
             $(, $example:literal)? $(, sub0 $sub0:literal)?;)+
     })+) => {
         /// Reads the keys of an entry as far as they are there. An entry has few of them: it is quicker to ask each

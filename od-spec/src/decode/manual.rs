@@ -19,26 +19,23 @@ source_keys! { reader pub(super) fn source() -> SourceDecl }
 revision_keys! { reader pub(super) fn issue() -> IssueDecl }
 erratum_keys! { reader pub(super) fn erratum() -> ErratumDecl }
 timing_keys! { reader fn timing() -> TimingDecl }
-switch_keys! { reader fn switch(unsure: bool) -> SwitchDecl }
-signal_keys! { reader fn signal(unsure: bool) -> SignalDecl }
+switch_keys! { reader fn switch() -> SwitchDecl }
+signal_keys! { reader fn signal() -> SignalDecl }
 timing_step_keys! { reader fn timing_step() -> TimingStepDecl }
 block_keys! { reader fn block(unsure: bool) -> BlockDecl }
 axis_keys! { reader fn axis() -> AxisDecl }
 mark_keys! { reader fn mark() -> MarkDecl }
-span_keys! { reader fn span(unsure: bool) -> SpanDecl }
+span_keys! { reader fn span() -> SpanDecl }
 
 impl FromNode for SignalDecl {
     fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
-        let unsure = reader.has_unknown_key(&keys::SIGNAL) || has_no_text(reader, &["type", "bit", "entry"]);
-        Some(signal(unsure, reader, diagnostics))
+        Some(signal(reader, diagnostics))
     }
 }
 
 impl FromNode for SwitchDecl {
     fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
-        let keys = ["below", "above", "back-by", "back-at"];
-        let unsure = reader.has_unknown_key(&keys::SWITCH) || has_no_text(reader, &keys);
-        Some(switch(unsure, reader, diagnostics))
+        Some(switch(reader, diagnostics))
     }
 }
 
@@ -63,14 +60,8 @@ impl FromNode for MarkDecl {
 
 impl FromNode for SpanDecl {
     fn from_node(reader: Reader<'_>, diagnostics: &mut Diagnostics) -> Option<Self> {
-        let unsure = reader.has_unknown_key(&keys::SPAN) || has_no_text(reader, &["from", "to"]);
-        Some(span(unsure, reader, diagnostics))
+        Some(span(reader, diagnostics))
     }
-}
-
-/// Whether one of these keys has something else than a text.
-fn has_no_text(reader: Reader<'_>, keys: &[&str]) -> bool {
-    keys.iter().any(|key| reader.child(key).is_some_and(|child| child.node.text().is_none()))
 }
 
 impl FromNode for Levels {
@@ -151,8 +142,6 @@ fn part(r: Reader<'_>, diagnostics: &mut Diagnostics) -> PartDecl {
         Some(Spanned::new(content, key.span))
     });
     PartDecl {
-        unsure: r.has_unknown_key(&keys::CONTENT),
-        span: r.node.entries().first().map_or(r.node.span, |(key, _)| key.span),
         number: r.integer("number"),
         title: r.words("title"),
         figure: r.keyed("figure").map(|(key, figure)| Spanned::new(figure_of(figure), key)),

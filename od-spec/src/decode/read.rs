@@ -212,7 +212,7 @@ impl<T: FromNode> Field for Option<Vec<Spanned<T>>> {
 /// comes first.
 macro_rules! reader {
     ($visibility:vis fn $function:ident($($head:ident: $head_type:ty),*) -> $name:ident {
-        $($key:literal $($required:ident)?: $shape:expr => $field:ident: $type:ty, $about:literal
+        $($key:literal $($need:ident)?: $shape:expr => $field:ident: $type:ty, $about:literal
             $(, $example:literal)?;)+
     }) => {
         $visibility fn $function(

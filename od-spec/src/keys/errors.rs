@@ -7,15 +7,15 @@ use crate::model::ErrorKind;
 macro_rules! error_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "name": Shape::Text => name: Option<Name>, "name; `{n}` counts through a range from 1; needed without `from`", "\"Voltage at battery block {n} too low\"";
-            "from": Shape::NameOf(NameOf::Library) => from: Option<Name>, "library that defines the code; the other keys go before it", "cia402";
+            "name" inherited: Shape::Text => name: Option<Name>, "name; `{n}` counts through a range from 1", "\"Voltage at battery block {n} too low\"";
+            "from": Shape::NameOf(NameOf::Library) => from: Option<Name>, "library that defines the code; the other keys override its facts", "cia402";
             "devices": DEVICES => devices: Option<Vec<Name>>, "devices that report it; all unless given";
-            "priority": Shape::Text => priority: Option<Name>, "priority, as the manual classes it";
+            "priority": Shape::Text => priority: Option<Name>, "priority, as the manual classifies it";
             "reaction": Shape::Words => reaction: Words, "what the device does";
             "option-code": Shape::Entry => option_code: Option<Name>, "entry whose value chooses the reaction", "0x605E";
-            "treated-by": DEVICES => treated_by: Option<Vec<Name>>, "devices that treat it as `priority`, `reaction` and `option-code` say; all that report it unless given";
-            "register": Shape::OneOrMore(&Shape::Choice(ErrorKind::WORDS)) => register: Vec<Spanned<ErrorKind>>, "kinds of error that it sets in 1001h, besides `generic`, which every error sets; that of its class unless given", "[current, temperature]";
-            "reset": Shape::Words => reset: Words, "what resets it; what the device's `any-error` says unless given", "switch the device off and on";
+            "treated-by": DEVICES => treated_by: Option<Vec<Name>>, "devices for which `priority`, `reaction` and `option-code` apply; all that report it unless given";
+            "register": Shape::OneOrMore(&Shape::Choice(ErrorKind::WORDS)) => register: Vec<Spanned<ErrorKind>>, "kinds of error that it sets in 1001h, in addition to `generic`, which every error sets; that of its class unless given", "[current, temperature]";
+            "reset": Shape::Words => reset: Words, "what resets it; that of the device's `any-error` unless given", "switch the device off and on";
             "about": Shape::Words => about: Words, "more about it";
         } }
     };
@@ -31,8 +31,8 @@ macro_rules! any_error_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "shown": Shape::Words => shown: Words, "what shows that there is an error", "bit 3 of 6041h";
-            "reaction": Shape::Words => reaction: Words, "what the device does, whatever the error is";
-            "reset": Shape::Words => reset: Words, "what resets an error; one with a `reset` of its own, and 0x0000, are left out", "bit 7 of 6040h from 0 to 1";
+            "reaction": Shape::Words => reaction: Words, "what the device does at any error";
+            "reset": Shape::Words => reset: Words, "what resets an error, except 0x0000 and those with a `reset` of their own", "bit 7 of 6040h from 0 to 1";
         } }
     };
 }

@@ -25,29 +25,29 @@ const MAIN_KEYS: &[Key] = key_list! {
     "title" required: Shape::Text, "title of the product or product family";
     "profile": Shape::Text, "makes the file a library; the name by which `from:` refers to it", "cia4xx";
     "languages": Shape::List(&Shape::Text), "language codes of the descriptions; the first is the default (`en`)", "[en, de]";
-    "source": Shape::Map(&SOURCE), "the printed manual that the specification stands for";
-    "revision": Shape::Map(&REVISION), "the issue of the manual that the specification holds";
-    "vendor": Shape::Map(&VENDOR), "maker of the devices; an EDS says `unknown` without";
+    "source": Shape::Map(&SOURCE), "the printed manual that the specification replaces";
+    "revision": Shape::Map(&REVISION), "the issue of the manual that the specification corresponds to";
+    "vendor": Shape::Map(&VENDOR), "maker of the devices; `unknown` in an EDS unless given";
     "uses": Shape::List(&Shape::NameOf(NameOf::LibraryFile)), "libraries of standard objects: `cia301`, `cia302`, `cia401`, `cia402`, or the path of a library file", "[cia301, cia402]";
-    "parts": Shape::List(&Shape::NameOf(NameOf::File)), "files that hold more of the sections below, each a part of the specification", "[errata.od.yaml]";
-    "axes": Shape::Map(&AXES), "objects of the library that repeat for every axis; only libraries have them", "{first: 0x6000, last: 0x67FF, count: 8}";
+    "parts": Shape::List(&Shape::NameOf(NameOf::File)), "files with more of the sections below, each a part of the specification", "[errata.od.yaml]";
+    "axes": Shape::Map(&AXES), "objects of a library that repeat for every axis", "{first: 0x6000, last: 0x67FF, count: 8}";
 };
 
 /// Sections: maps and lists, which may stand in parts.
 const SECTION_KEYS: &[Key] = key_list! {
     "history": Shape::List(&Shape::Map(&REVISION)), "issues of the manual, oldest first";
-    "allow": Shape::MapOf(KeyKind::Name, &Shape::ShortOr(&Shape::Text, &ALLOWED)), "rules that the device breaks all the same, by code, with the reason: their findings become notes", "{OD0510: the drive counts errors of the factory test}";
-    "glossary": Shape::MapOf(KeyKind::Name, &Shape::Words), "abbreviations and what they mean", "{PDO: process data object}";
+    "allow": Shape::MapOf(KeyKind::Name, &Shape::ShortOr(&Shape::Text, &ALLOWED)), "rules that the device may break, by code, with the reason: their findings become notes", "{OD0510: the drive counts errors of the factory test}";
+    "glossary": Shape::MapOf(KeyKind::Name, &Shape::Words), "abbreviations and their meaning", "{PDO: process data object}";
     "devices": Shape::MapOf(KeyKind::DeviceKey, &Shape::Map(&DEVICE)), "the devices, by a short key; a file without `profile:` has at least one";
     "units": Shape::MapOf(KeyKind::Name, &Shape::Map(&UNIT)), "physical units, by name";
     "types": Shape::MapOf(KeyKind::Name, &Shape::Map(&TYPE)), "enums and bit fields, by name";
-    "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that the library offers to devices; only libraries have them";
+    "features": Shape::MapOf(KeyKind::Name, &Shape::Map(&FEATURE)), "groups of objects that a library offers to devices";
     "objects": Shape::MapOf(KeyKind::Indices, &Shape::OneOrMore(&Shape::Map(&OBJECT))), "the objects, by index or indices; a list where devices have different ones";
     "pdos": Shape::MapOf(KeyKind::Device, &Shape::Map(&PDOS)), "the PDOs of each device, by the device's key";
     "errors": Shape::MapOf(KeyKind::ErrorCodes, &Shape::Map(&ERROR)), "error codes (603Fh, 1003h)";
     "state-machines": Shape::MapOf(KeyKind::Name, &Shape::Map(&MACHINE)), "state machines with their commands, by name";
     "constraints": Shape::MapOf(KeyKind::Name, &Shape::Map(&CONSTRAINT)), "conditions between entries, by name";
-    "errata": Shape::List(&Shape::Map(&ERRATUM)), "where the printed manual says something else, or nothing";
+    "errata": Shape::List(&Shape::Map(&ERRATUM)), "where the printed manual differs, or states nothing";
     "document": Shape::List(&Shape::Map(&SECTION)), "the manual's sections and tables, in order";
 };
 
@@ -61,19 +61,21 @@ const PART_KEYS: &[Key] = key_list! {
 pub static SPEC: Keys = Keys {
     name: "a specification",
     keys: &joined::<{ MAIN_KEYS.len() + SECTION_KEYS.len() }>(&[MAIN_KEYS, SECTION_KEYS]),
+    choices: &[],
 };
 
 /// Top level of a part.
 pub static PART: Keys = Keys {
     name: "a part",
     keys: &joined::<{ PART_KEYS.len() + SECTION_KEYS.len() }>(&[PART_KEYS, SECTION_KEYS]),
+    choices: &[],
 };
 
 keys! {
     /// A code under `allow:`.
     ALLOWED = "an allowed rule" {
-        "at": Shape::OneOrMore(&Shape::Index), "the objects that may break the rule; without it, all", "[0x2000, 0x2101]";
-        "about" required: Shape::Words, "the reason", "as the first series has it";
+        "at": Shape::OneOrMore(&Shape::Index), "the objects that may break the rule; all unless given", "[0x2000, 0x2101]";
+        "about" required: Shape::Words, "the reason", "the first series has it";
     }
 }
 
@@ -113,7 +115,7 @@ macro_rules! vendor_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "name" required: Shape::HeaderText => name: Option<Name>, "company name";
-            "number": U32 => number: Option<Spanned<i128>>, "vendor-ID assigned by CiA (1018h.1); 0 when it is not known", "0x0000_0123";
+            "number": U32 => number: Option<Spanned<i128>>, "vendor-ID assigned by CiA (1018h.1); 0 unless given", "0x0000_0123";
         } }
     };
 }

@@ -7,11 +7,11 @@ use crate::model::ByDevice;
 macro_rules! machine_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "from": Shape::NameOf(NameOf::Library) => from: Option<Name>, "library that defines a machine of this name; states, transitions and commands of one name or number go before the library's", "cia402";
+            "from": Shape::NameOf(NameOf::Library) => from: Option<Name>, "library that defines a machine of this name; states, transitions and commands with the same name or number override those of the library", "cia402";
             "devices": DEVICES => devices: Option<Vec<Name>>, "devices that have it; all unless given";
-            "status": Shape::Entry => status: Option<Name>, "entry that shows the state; needed without `from`", "0x6041";
-            "command": Shape::Entry => command: Option<Name>, "entry that takes the commands; needed without `from`", "controlword";
-            "states": Shape::MapOf(KeyKind::Name, &Shape::Map(&STATE)) => states: Vec<StateDecl>, "states by name; needed without `from`";
+            "status" inherited: Shape::Entry => status: Option<Name>, "entry that shows the state", "0x6041";
+            "command" inherited: Shape::Entry => command: Option<Name>, "entry that takes the commands", "controlword";
+            "states" inherited: Shape::MapOf(KeyKind::Name, &Shape::Map(&STATE)) => states: Vec<StateDecl>, "states by name";
             "transitions": Shape::MapOf(KeyKind::Number, &Shape::Map(&TRANSITION)) => transitions: Vec<TransitionDecl>, "transitions by number";
             "commands": Shape::MapOf(KeyKind::Name, &Shape::Map(&COMMAND)) => commands: Vec<CommandDecl>, "commands by name";
         } }
@@ -27,7 +27,7 @@ machine_keys! { keys
 macro_rules! state_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "pattern": Shape::Pattern => pattern: Option<Spanned<BitPattern>>, "bits of the status entry, most significant first; `x` either; needed unless the library's machine has it", "\"xxxx xxxx x01x 0001\"";
+            "pattern" inherited: Shape::Pattern => pattern: Option<Spanned<BitPattern>>, "bits of the status entry, most significant first; `x` either", "\"xxxx xxxx x01x 0001\"";
             "about": Shape::Words => about: Words, "meaning";
         } }
     };
@@ -42,11 +42,11 @@ state_keys! { keys
 macro_rules! transition_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "from": Shape::OneOrMore(&Shape::NameOf(NameOf::State)) => from: Vec<Name>, "states it leaves; `start` after power-on, `any` for every state; needed unless the library's machine has it", "[Switched-on, Operation enabled]";
-            "to": Shape::NameOf(NameOf::State) => to: Option<Name>, "state it enters; needed unless the library's machine has it";
-            "event": Shape::Words => event: Words, "what causes it; needed unless the library's machine has it";
+            "from" inherited: Shape::OneOrMore(&Shape::NameOf(NameOf::State)) => from: Vec<Name>, "states it leaves; `start` after power-on, `any` for every state", "[Switched-on, Operation enabled]";
+            "to" inherited: Shape::NameOf(NameOf::State) => to: Option<Name>, "state it enters";
+            "event" inherited: Shape::Words => event: Words, "what causes it";
             "action": Shape::Words => action: Words, "what the device does";
-            "by-device": Shape::Choice(ByDevice::WORDS) => by_device: Option<Spanned<ByDevice>>, "how the device makes it without a command: `automatic` when what it does in the state is done, `event` when something happens, `never`; `event` where no command causes it, `never` elsewhere", "automatic";
+            "by-device": Shape::Choice(ByDevice::WORDS) => by_device: Option<Spanned<ByDevice>>, "how the device makes it without a command: `automatic` when what it does in the state is complete, `event` when something happens, `never`; unless given, `event` where no command causes it, `never` elsewhere", "automatic";
         } }
     };
 }
@@ -60,7 +60,7 @@ transition_keys! { keys
 macro_rules! command_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "pattern": Shape::Pattern => pattern: Option<Spanned<BitPattern>>, "bits of the command entry, most significant first; `x` either, `r` rising, `f` falling edge; needed unless the library's machine has it", "\"xxxx xxxx 0xxx x110\"";
+            "pattern" inherited: Shape::Pattern => pattern: Option<Spanned<BitPattern>>, "bits of the command entry, most significant first; `x` either, `r` rising, `f` falling edge", "\"xxxx xxxx 0xxx x110\"";
             "send": U32 => send: Option<Spanned<i128>>, "a value that gives the command", "0x0006";
             "transitions": Shape::List(&U8) => transitions: Vec<Spanned<i128>>, "transitions it causes", "[2, 6, 8]";
             "about": Shape::Words => about: Words, "meaning";

@@ -7,13 +7,13 @@ use crate::model::{Direction, ErratumKind};
 macro_rules! erratum_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "at": Shape::OneOrMore(&Shape::Entry) => at: Vec<Name>, "objects or entries it is about", "[0x3004, 0x30FA.3]";
-            "devices": DEVICES => devices: Option<Vec<Name>>, "devices it is about; unless given, those that have something of `at`; all without `at`";
-            "kind" required: Shape::Choice(ErratumKind::WORDS) => kind: Option<Spanned<ErratumKind>>, "what kind of fact";
+            "at": Shape::OneOrMore(&Shape::Entry) => at: Vec<Name>, "objects or entries that it is about", "[0x3004, 0x30FA.3]";
+            "devices": DEVICES => devices: Option<Vec<Name>>, "devices that it is about; unless given, those that have something of `at`, or all without `at`";
+            "kind" required: Shape::Choice(ErratumKind::WORDS) => kind: Option<Spanned<ErratumKind>>, "the kind of fact";
             "place" required: Shape::Words => place: Words, "where the manual prints it", "\"4.1.1.5, detail table\"";
-            "prints" required: Shape::Words => prints: Words, "what it prints", "3003h";
+            "prints" required: Shape::Words => prints: Words, "what the manual prints", "3003h";
             "reads" required: Shape::Words => reads: Words, "what the specification says", "3004h";
-            "because" required: Shape::Words => because: Words, "why";
+            "because" required: Shape::Words => because: Words, "the reason";
         } }
     };
 }
@@ -35,16 +35,20 @@ keys! {
 
 keys! {
     /// A text or table of the manual.
-    CONTENT = "a text or table" {
+    CONTENT = "a text or table" needs [One([
+        "text", "note", "warning", "steps", "list", "formula", "overview", "objects", "bits", "values", "errors",
+        "reactions", "states", "transitions", "commands", "ladder", "timing", "hysteresis", "flow", "axis", "pdos",
+        "rows", "glossary", "history"
+    ])] {
         "text": Shape::Words, "paragraphs; each line of the value is one", "The PMC controls the axis.";
-        "note": Shape::Words, "paragraphs that stand out", "The value is lost at power-off.";
+        "note": Shape::Words, "paragraphs that are highlighted", "The value is lost at power-off.";
         "warning": Shape::Words, "paragraphs about a danger", "The drive moves at once.";
-        "steps": Shape::List(&Shape::Words), "what is done one after the other", "[Switch on., Set the mode.]";
+        "steps": Shape::List(&Shape::Words), "actions, one after the other", "[Switch on., Set the mode.]";
         "list": Shape::List(&Shape::Words), "a list without an order", "[position, velocity]";
         "formula": Shape::Words, "a formula; each line of the value is one", "\"power = force · velocity\"";
         "number": Shape::Integer(1, 9999), "number of a table, as printed";
         "title": Shape::Words, "caption of a table";
-        "figure": Shape::ShortOr(&Shape::Integer(1, 9999), &FIGURE), "number of the picture that is drawn, as printed", "13";
+        "figure": Shape::ShortOr(&Shape::Integer(1, 9999), &FIGURE), "number of the picture that the documents draw, as printed", "13";
         "overview": INDICES, "one row per object", "[0x3000, 0x3001]";
         "objects": INDICES, "the objects' entries in detail";
         "bits": Shape::ShortOr(&Shape::NameOf(NameOf::NamedType), &TABLE_BITS), "bits of a named type", "{type: PMM digital inputs, masks: 16}";
@@ -54,10 +58,10 @@ keys! {
         "states": Shape::NameOf(NameOf::Machine), "states of a state machine";
         "transitions": Shape::NameOf(NameOf::Machine), "transitions of a state machine";
         "commands": Shape::NameOf(NameOf::Machine), "commands of a state machine";
-        "ladder": Shape::ShortOr(&Shape::NameOf(NameOf::Constraint), &TABLE_LADDER), "entries of an ordering constraint with their defaults";
+        "ladder": Shape::ShortOr(&Shape::NameOf(NameOf::Constraint), &TABLE_LADDER), "entries of an ordering constraint, with their defaults";
         "timing": Shape::Map(&TIMING), "a sequence of events, drawn as levels of signals";
-        "hysteresis": Shape::OneOrMore(&Shape::Map(&SWITCH)), "what goes on beyond a threshold and off behind it, drawn with the values of the defaults";
-        "flow": Shape::OneOrMore(&Shape::Map(&BLOCK)), "blocks, and what goes from one to another, drawn as a block diagram";
+        "hysteresis": Shape::OneOrMore(&Shape::Map(&SWITCH)), "what goes on beyond a threshold and off at another value, drawn with the values of the defaults";
+        "flow": Shape::OneOrMore(&Shape::Map(&BLOCK)), "blocks and what goes from one to another, drawn as a block diagram";
         "axis": Shape::Map(&AXIS), "marks on an axis and the spans between them, drawn as a dimensioned line";
         "pdos": Shape::Map(&TABLE_PDOS), "default PDOs of a device", "{device: pmc, direction: receive}";
         "rows": Shape::Map(&TABLE_ROWS), "rows of text", "{columns: [Index, Use], rows: [[0000h, not used]]}";
@@ -70,7 +74,7 @@ keys! {
     /// `figure:` of a table.
     FIGURE = "a figure" {
         "number" required: Shape::Integer(1, 9999), "number, as printed";
-        "title": Shape::Words, "caption, where it is not that of the table";
+        "title": Shape::Words, "caption, where it differs from that of the table";
     }
 }
 
@@ -78,7 +82,7 @@ keys! {
     /// `bits:` of a table.
     TABLE_BITS = "a bit table" {
         "type" required: Shape::NameOf(NameOf::NamedType), "name of the bit field type";
-        "masks": Shape::Integer(1, 64), "shows the mask of each bit, too: its width in bits; bits beyond it have none";
+        "masks": Shape::Integer(1, 64), "width in bits of masks, which the table then also shows; bits beyond it have none";
     }
 }
 
@@ -86,7 +90,7 @@ keys! {
     /// `ladder:` of a table.
     TABLE_LADDER = "a ladder" {
         "constraint" required: Shape::NameOf(NameOf::Constraint), "name of the constraint";
-        "labels": Shape::List(&Shape::Words), "what each of its entries is called there, in the constraint's order", "[lowest voltage, highest voltage]";
+        "labels": Shape::List(&Shape::Words), "names of its entries there, in the order of the constraint", "[lowest voltage, highest voltage]";
     }
 }
 
@@ -125,9 +129,9 @@ macro_rules! signal_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "type": Shape::NameOf(NameOf::NamedType) => named_type: Option<Name>, "bit field type that has the bit", "controlword";
-            "bit": Shape::NameOf(NameOf::Bit) => bit: Option<Name>, "bit or run of bits of the type: its name, also one that it has in a mode of operation only, or its number", "new set-point";
-            "entry": Shape::Entry => entry: Option<Name>, "entry whose value it is, in place of `type` and `bit`", "0x607A";
-            "levels" required: Shape::List(&Shape::Value) => levels: Option<Spanned<Levels>>, "the level before the first step, then that behind each step", "[0, 0, 1, 1, 0]";
+            "bit": Shape::NameOf(NameOf::Bit) => bit: Option<Name>, "bit or run of bits of the type: its name, also one for a single mode of operation, or its number", "new set-point";
+            "entry": Shape::Entry => entry: Option<Name>, "entry whose value it is, instead of `type` and `bit`", "0x607A";
+            "levels" required: Shape::List(&Shape::Value) => levels: Option<Spanned<Levels>>, "the level before the first step, then that after each step", "[0, 0, 1, 1, 0]";
         } }
     };
 }
@@ -135,14 +139,14 @@ pub(crate) use signal_keys;
 
 signal_keys! { keys
     /// A signal of a sequence of events.
-    SIGNAL = "a signal"
+    SIGNAL = "a signal" needs [Together(["type", "bit"]), One(["type", "entry"])]
 }
 
 macro_rules! timing_step_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "event" required: Shape::Words => event: Words, "what happens", "The device sets bit 12 of 6041h.";
-            "cause": Shape::Integer(1, 64) => cause: Option<Spanned<i128>>, "number of the earlier step that this one answers; an arrow leads from there", "2";
+            "cause": Shape::Integer(1, 64) => cause: Option<Spanned<i128>>, "number of the earlier step that causes this one; an arrow leads from there", "2";
         } }
     };
 }
@@ -159,7 +163,7 @@ macro_rules! switch_keys {
             "switches" required: Shape::Words => what: Words, "what goes on", "heater and fan";
             "below": Shape::Entry => below: Option<Name>, "entry with the value below which it goes on", "0x3201.1";
             "above": Shape::Entry => above: Option<Name>, "entry with the value above which it goes on", "0x3201.2";
-            "back-by": Shape::Entry => back_by: Option<Name>, "entry with the difference behind the threshold at which it goes off again", "0x3201.3";
+            "back-by": Shape::Entry => back_by: Option<Name>, "entry with the difference from the threshold at which it goes off again", "0x3201.3";
             "back-at": Shape::Entry => back_at: Option<Name>, "entry with the value at which it goes off again", "0x30FC.2";
         } }
     };
@@ -168,13 +172,13 @@ pub(crate) use switch_keys;
 
 switch_keys! { keys
     /// A switch with a hysteresis.
-    SWITCH = "a switch with a hysteresis"
+    SWITCH = "a switch with a hysteresis" needs [One(["below", "above"]), One(["back-by", "back-at"])]
 }
 
 macro_rules! block_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "block" required: Shape::Words => name: Words, "what it is; the name by which later blocks know it", "ramp generator";
+            "block" required: Shape::Words => name: Words, "what it is; the name by which later blocks refer to it", "ramp generator";
             "entries": Shape::OneOrMore(&Shape::Entry) => entries: Vec<Name>, "entries or objects whose values it has or that set it up", "[0x6083, 0x6084]";
             "type": Shape::NameOf(NameOf::NamedType) => named_type: Option<Name>, "bit field type that has the bit", "controlword";
             "bit": Shape::NameOf(NameOf::Bit) => bit: Option<Name>, "bit or run of bits of the type that it is, or that acts on it", "halt";
@@ -187,14 +191,14 @@ pub(crate) use block_keys;
 
 block_keys! { keys
     /// A block of a diagram.
-    BLOCK = "a block"
+    BLOCK = "a block" needs [Together(["type", "bit"])]
 }
 
 keys! {
     /// What a block takes from another.
     INFLOW = "what a block takes from another" {
         "block" required: Shape::NameOf(NameOf::Block), "name of the earlier block", "ramp generator";
-        "carries": Shape::Words, "what comes from there; stands at the arrow", "set-point";
+        "carries": Shape::Words, "what comes from there; written at the arrow", "set-point";
     }
 }
 
@@ -216,7 +220,7 @@ axis_keys! { keys
 macro_rules! mark_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
-            "mark" required: Shape::Words => name: Words, "what is there; the name by which spans know it", "target position";
+            "mark" required: Shape::Words => name: Words, "what is there; the name by which spans refer to it", "target position";
             "entries": Shape::OneOrMore(&Shape::Entry) => entries: Vec<Name>, "entries whose value it is", "0x607A";
         } }
     };
@@ -232,10 +236,10 @@ macro_rules! span_keys {
     ($then:ident $($head:tt)*) => {
         $then! { $($head)* {
             "span" required: Shape::Words => name: Words, "what it is", "position window";
-            "entries": Shape::OneOrMore(&Shape::Entry) => entries: Vec<Name>, "entries that say how long it is, or that act there", "0x6067";
-            "from": Shape::NameOf(NameOf::Mark) => from: Option<Name>, "mark where it begins; without it, it has no lower end", "target position";
-            "to": Shape::NameOf(NameOf::Mark) => to: Option<Name>, "mark where it ends; without it, it has no upper end", "upper edge";
-            "does": Shape::Words => does: Words, "what holds there", "the target counts as reached";
+            "entries": Shape::OneOrMore(&Shape::Entry) => entries: Vec<Name>, "entries that determine its length, or that act there", "0x6067";
+            "from": Shape::NameOf(NameOf::Mark) => from: Option<Name>, "mark where it begins; unless given, it has no beginning", "target position";
+            "to": Shape::NameOf(NameOf::Mark) => to: Option<Name>, "mark where it ends; unless given, it has no end", "upper edge";
+            "does": Shape::Words => does: Words, "what is true there", "the target counts as reached";
         } }
     };
 }
@@ -243,5 +247,5 @@ pub(crate) use span_keys;
 
 span_keys! { keys
     /// A span of an axis.
-    SPAN = "a span of an axis"
+    SPAN = "a span of an axis" needs [Any(["from", "to"])]
 }

@@ -19,7 +19,7 @@ mod types;
 
 pub use constraints::CONSTRAINT;
 pub use devices::{CHANNEL, DEVICE, FILE, NOTES};
-pub use entry::{ENTRY, ENTRY_EDS_KEYS, SPECIAL};
+pub use entry::{CONSUMER, ENTRY, ENTRY_EDS_KEYS, SPECIAL};
 pub use errors::{ANY_ERROR, ERROR};
 pub use file::{ALLOWED, PART, PART_OF, PARTS, REVISION, SOURCE, SPEC, SPEC_VERSION, VENDOR};
 pub use libraries::{AXES, FEATURE};
@@ -35,7 +35,7 @@ pub use pdos::{
     PDO_RESERVED, PDOS,
 };
 pub use plant::{MASTER, PLANT, PLANT_DEVICE, PLANT_MACHINE, PLANT_NODE, PLANT_TYPE, PLANT_VERSION, SITE};
-pub use shape::{CHANNELS, Key, KeyKind, Keys, NameOf, NumberedName, Shape, VERSION};
+pub use shape::{CHANNELS, Choice, Key, KeyKind, Keys, NameOf, Need, NumberedName, Shape, VERSION};
 pub use types::{BIT, ENUM_VALUE, MODE_BIT, TYPE, UNIT};
 
 pub(crate) use constraints::constraint_keys;

@@ -10,8 +10,8 @@ keys! {
     /// Top level of a parameter file.
     PARAMETER_FILE = "a parameter file" {
         "od-parameters" required: Shape::Version, "version of the language; `1`";
-        "device": Shape::Text, "key of the device in its specification; whoever names another one is told", "pmc";
-        "title": Shape::Text, "what the values are for", "blade A";
+        "device": Shape::Text, "key of the device in its specification; a command for another device reports an error", "pmc";
+        "title": Shape::Text, "purpose of the values", "blade A";
         "about": Shape::Words, "more about it";
         "node": Shape::Integer(1, 127), "node-ID";
         "bit-rate": Shape::Integer(1, 1000), "bit rate in kbit/s, one that the device supports", "500";
@@ -20,6 +20,6 @@ keys! {
         "net-name": Shape::HeaderText, "name of the network";
         "serial-number": U32, "serial number by which LSS finds the node; that of 1018h.4 unless given", "0x0000_1A2B";
         "parameters": Shape::MapOf(KeyKind::Name, &Shape::Setting), "values by entry: by name, index, or object with its entries below", "{set pressure: 2.5 bar}";
-        "unlock": Shape::List(&Shape::Text), "locked entries that may be set all the same, by name or index", "[calibration]";
+        "unlock": Shape::List(&Shape::Text), "locked entries that may be set, by name or index", "[calibration]";
     }
 }

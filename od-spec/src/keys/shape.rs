@@ -7,6 +7,8 @@ pub struct Keys {
     pub name: &'static str,
     /// The keys, in the order the reference shows them.
     pub keys: &'static [Key],
+    /// Which of the keys depend on each other.
+    pub choices: &'static [Choice],
 }
 
 impl Keys {
@@ -18,6 +20,39 @@ impl Keys {
     }
 }
 
+/// Keys of one map that depend on each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Choice {
+    /// Exactly one of them must be there.
+    One(&'static [&'static str]),
+    /// At least one of them must be there.
+    Any(&'static [&'static str]),
+    /// At least one of them must be there, or in what the map takes its keys from.
+    AnyInherited(&'static [&'static str]),
+    /// All of them are there, or none.
+    Together(&'static [&'static str]),
+}
+
+impl Choice {
+    /// The keys.
+    pub const fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::One(keys) | Self::Any(keys) | Self::AnyInherited(keys) | Self::Together(keys) => keys,
+        }
+    }
+}
+
+/// Whether a map needs a key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Need {
+    /// It may be left out, unless a [`Choice`] needs it.
+    Optional,
+    /// The map itself must have it.
+    Required,
+    /// The map must have it, or what the map takes it from: a library, a similar object, the level above.
+    Inherited,
+}
+
 /// One key.
 #[derive(Debug, Clone, Copy)]
 pub struct Key {
@@ -26,7 +61,7 @@ pub struct Key {
     /// What its value looks like.
     pub shape: Shape,
     /// Whether it must be there.
-    pub required: bool,
+    pub need: Need,
     /// What it means.
     pub about: &'static str,
     /// A value as it may be written, where the shape alone does not show it.

@@ -6,40 +6,43 @@
 
 use super::shape::Key;
 
-/// A table of keys: `"key" required: shape => field: type, "meaning", "example";`, where `required`, the field and the example
-/// may be left out.
+/// A table of keys: `"key" required: shape => field: type, "meaning", "example";`, where `required` (or `inherited`), the
+/// field and the example may be left out. The keys that depend on each other precede it: `needs [One(["a", "b"])]`.
 macro_rules! keys {
-    ($(#[$meta:meta])* $name:ident = $title:literal {
-        $($key:literal $($required:ident)?: $shape:expr $(=> $field:ident: $type:ty)?, $about:literal
+    ($(#[$meta:meta])* $name:ident = $title:literal $(needs [$($choice:ident($keys:expr)),+])? {
+        $($key:literal $($need:ident)?: $shape:expr $(=> $field:ident: $type:ty)?, $about:literal
             $(, $example:literal)?;)+
     }) => {
         $(#[$meta])*
-        pub static $name: Keys = Keys { name: $title, keys: $crate::keys::table::key_list! {
-            $($key $($required)?: $shape, $about $(, $example)?;)+
-        } };
+        pub static $name: Keys = Keys {
+            name: $title,
+            keys: $crate::keys::table::key_list! { $($key $($need)?: $shape, $about $(, $example)?;)+ },
+            choices: &[$($($crate::keys::Choice::$choice(&$keys)),+)?],
+        };
     };
 }
 pub(super) use keys;
 
 /// The keys of a table without the table.
 macro_rules! key_list {
-    ($($key:literal $($required:ident)?: $shape:expr, $about:literal $(, $example:literal)?;)+) => {
+    ($($key:literal $($need:ident)?: $shape:expr, $about:literal $(, $example:literal)?;)+) => {
         &[$(Key {
             name: $key,
             shape: $shape,
-            required: $crate::keys::table::key_list!(@required $($required)?),
+            need: $crate::keys::table::key_list!(@need $($need)?),
             about: $about,
             example: $crate::keys::table::key_list!(@example $($example)?),
         },)+]
     };
-    (@required required) => { true };
-    (@required) => { false };
+    (@need required) => { $crate::keys::Need::Required };
+    (@need inherited) => { $crate::keys::Need::Inherited };
+    (@need) => { $crate::keys::Need::Optional };
     (@example $example:literal) => { Some($example) };
     (@example) => { None };
 }
 pub(super) use key_list;
 
-/// Lists of keys, one behind the other.
+/// Lists of keys, one after the other.
 pub(super) const fn joined<const N: usize>(lists: &[&[Key]]) -> [Key; N] {
     let mut keys = [lists[0][0]; N];
     let (mut list, mut length) = (0, 0);

@@ -49,7 +49,7 @@ impl Figures<'_, '_> {
         names: &Named<'_>,
         diagnostics: &mut Diagnostics,
     ) -> Option<AxisSpan> {
-        let SpanDecl { name, entries, from, to, does, unsure } = &decl.value;
+        let SpanDecl { name, entries, from, to, does } = &decl.value;
         let entries = self.entries(entries, diagnostics);
         let reach = match (from, to) {
             (Some(from), Some(to)) => {
@@ -68,16 +68,8 @@ impl Figures<'_, '_> {
             }
             (Some(from), None) => AxisReach::Above(names.find(from, diagnostics)?),
             (None, Some(to)) => AxisReach::Below(names.find(to, diagnostics)?),
-            (None, None) => {
-                if !unsure {
-                    let message = "nothing says where the span begins or ends";
-                    diagnostics.push(
-                        Diagnostic::new(codes::MISSING_KEY, decl.span.part(0, 1), message)
-                            .help("write `from:`, `to:` or both, with the names of marks"),
-                    );
-                }
-                return None;
-            }
+            // Reported by the keys of a span.
+            (None, None) => return None,
         };
         let name = words(name);
         Some(AxisSpan {

@@ -1,7 +1,8 @@
 //! Heartbeat consumers by node and time: `{node: 5, time: 3000 ms}` for the value 0005_0BB8h of an entry of 1016h.
 
-use crate::ast::{CONSUMER_KEYS, DefaultDecl, Name};
+use crate::ast::{DefaultDecl, Name};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
+use crate::keys::{CONSUMER, Key};
 use crate::model::{Index, Ratio};
 use crate::scalar;
 use crate::source::{Span, Spanned};
@@ -18,12 +19,13 @@ pub(crate) fn are_meant(index: Index, keys: &Keys) -> bool {
 
 /// Whether a name is a key of a consumer.
 pub(super) fn is_key(name: &str) -> bool {
-    CONSUMER_KEYS.contains(&name)
+    CONSUMER.get(name).is_some()
 }
 
 /// The raw value of a consumer.
 pub(crate) fn raw(keys: &Keys, place: Span, diagnostics: &mut Diagnostics) -> Option<i128> {
-    let mut value = |name: &str, example: &str| {
+    let mut value = |key: &Key| {
+        let (name, example) = (key.name, key.example.unwrap_or_default());
         let Some((_, value)) = keys.iter().find(|(key, _)| key.value == name) else {
             let message = format!("a heartbeat consumer needs the key `{name}`");
             let help = format!("write both, such as `{{node: 5, time: 3000 ms}}`, here `{name}: {example}`");
@@ -38,8 +40,8 @@ pub(crate) fn raw(keys: &Keys, place: Span, diagnostics: &mut Diagnostics) -> Op
         };
         Some(Spanned::new(text, value.span))
     };
-    let [node, time] = CONSUMER_KEYS;
-    let (node, time) = (value(node, "5"), value(time, "3000 ms"));
+    let [node, time] = CONSUMER.keys else { return None };
+    let (node, time) = (value(node), value(time));
     let node = node.and_then(|text| node_id(text, diagnostics));
     let time = time.and_then(|text| milliseconds(text, diagnostics));
     Some(node? << 16 | time?)

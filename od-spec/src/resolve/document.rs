@@ -275,37 +275,25 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
         if let Some(number) = decl.figure.as_ref().and_then(|figure| figure.value.number.as_ref()) {
             is_new("figure", number.value, number, &mut figures, diagnostics);
         }
-        match decl.contents.as_slice() {
-            [content] => {
-                contents.check(&content.value, diagnostics);
-                let is_prose = matches!(content.value, ContentDecl::Prose(..));
-                if let Some(figure) = decl.figure.as_ref().filter(|_| !is_prose && !is_drawn(&content.value)) {
-                    let message = "nothing is drawn of this content, so that it is not a figure";
-                    diagnostics.push(
-                        Diagnostic::new(codes::CONFLICTING_KEYS, figure.span, message)
-                            .with(content.span, "the content is here")
-                            .help("remove the key; it belongs to `bits`, `states`, `ladder`, `timing`, `hysteresis`, `flow` and `axis`"),
-                    );
-                }
-                if let (ContentDecl::Prose(kind, _), Some((table, what))) = (&content.value, of_table(decl)) {
-                    let message = format!("`{}` has {what}", kind.word());
-                    diagnostics.push(
-                        Diagnostic::new(codes::CONFLICTING_KEYS, table, message)
-                            .with(content.span, "a text is here")
-                            .help("remove the key; it belongs to tables"),
-                    );
-                }
-            }
-            [first, second, ..] => diagnostics.push(
-                Diagnostic::new(codes::CONFLICTING_KEYS, second.span, "a text or table is one of these keys only")
-                    .with(first.span, "the first is here")
-                    .help("keep one of the keys, or make two of it"),
-            ),
-            [] if decl.unsure => {}
-            [] => diagnostics.push(
-                Diagnostic::new(codes::MISSING_KEY, decl.span, "nothing says which text or table this is")
-                    .help("write one of `text`, `warning`, `overview`, `objects`, `bits`, `values`, `errors`, `rows`, …"),
-            ),
+        // None or several were reported by the keys of a text or table.
+        let [content] = decl.contents.as_slice() else { continue };
+        contents.check(&content.value, diagnostics);
+        let is_prose = matches!(content.value, ContentDecl::Prose(..));
+        if let Some(figure) = decl.figure.as_ref().filter(|_| !is_prose && !is_drawn(&content.value)) {
+            let message = "nothing is drawn of this content, so that it is not a figure";
+            diagnostics.push(
+                Diagnostic::new(codes::CONFLICTING_KEYS, figure.span, message)
+                    .with(content.span, "the content is here")
+                    .help("remove the key; it belongs to `bits`, `states`, `ladder`, `timing`, `hysteresis`, `flow` and `axis`"),
+            );
+        }
+        if let (ContentDecl::Prose(kind, _), Some((table, what))) = (&content.value, of_table(decl)) {
+            let message = format!("`{}` has {what}", kind.word());
+            diagnostics.push(
+                Diagnostic::new(codes::CONFLICTING_KEYS, table, message)
+                    .with(content.span, "a text is here")
+                    .help("remove the key; it belongs to tables"),
+            );
         }
     }
 }

@@ -39,13 +39,8 @@ impl Figures<'_, '_> {
         let bits = match (named_type, bit) {
             (Some(named_type), Some(bit)) => self.named_bits(named_type, bit, diagnostics).map(Some),
             (None, None) => Some(None),
-            (Some(alone), None) | (None, Some(alone)) => {
-                let (key, other) = if bit.is_none() { ("type", "bit") } else { ("bit", "type") };
-                let message = format!("a block with `{key}` needs the key `{other}`");
-                let diagnostic = Diagnostic::new(codes::MISSING_KEY, alone.span, message);
-                diagnostics.push(diagnostic.help(format!("add `{other}:`, or remove `{key}`")));
-                None
-            }
+            // Reported by the keys of a block.
+            (Some(_), None) | (None, Some(_)) => None,
         };
         let inflows: Vec<Option<Inflow>> =
             from.iter().map(|inflow| earlier(at, &inflow.value, names, diagnostics)).collect();

@@ -9,9 +9,10 @@ use super::refs::{Broken, NamesOf};
 use super::scope::unknown;
 use super::types::words;
 use super::varied::Varied;
-use crate::ast::{MachineDecl, Name, Spec, TransitionDecl};
+use crate::ast::{Lacking, MachineDecl, Name, Spec, TransitionDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
+use crate::keys::{COMMAND, Keys, STATE, TRANSITION};
 use crate::limits::STATES;
 use crate::model::{
     BitPattern, ByDevice, Command, Devices, Dictionary, EntryId, State, StateMachine, Transition,
@@ -42,12 +43,7 @@ fn whole<'a>(
     diagnostics: &mut Diagnostics,
 ) -> Option<Cow<'a, MachineDecl>> {
     let Some(from) = &decl.from else {
-        let keys = [
-            ("status", decl.status.is_none()),
-            ("command", decl.command.is_none()),
-            ("states", decl.states.is_empty()),
-        ];
-        for (key, _) in keys.into_iter().filter(|(_, missing)| *missing && !decl.unsure) {
+        for key in decl.lacking().into_iter().filter(|_| !decl.unsure) {
             diagnostics.push(
                 Diagnostic::new(
                     codes::MISSING_KEY,
@@ -335,23 +331,21 @@ fn commands(
 
 /// States, transitions and commands have what makes them, here or in the library.
 fn check_complete(decl: &MachineDecl, diagnostics: &mut Diagnostics) {
-    let mut missing = |span: Span, what: &str, key: &str| {
-        diagnostics.push(
-            Diagnostic::new(codes::MISSING_KEY, span, format!("{what} needs the key `{key}`"))
-                .help(format!("add `{key}:`")),
-        );
-    };
-    for state in decl.states.iter().filter(|state| state.pattern.is_none()) {
-        missing(state.name.span, "a state", "pattern");
-    }
-    for one in &decl.transitions {
-        let keys = [("from", one.from.is_empty()), ("to", one.to.is_none()), ("event", one.event.is_none())];
-        for (key, _) in keys.into_iter().filter(|(_, missing)| *missing) {
-            missing(one.number.span, "a transition", key);
+    let mut check = |keys: &Keys, place: Span, decl: &dyn Lacking| {
+        for key in decl.lacking() {
+            let message = format!("{} needs the key `{key}`", keys.name);
+            diagnostics
+                .push(Diagnostic::new(codes::MISSING_KEY, place, message).help(format!("add `{key}:`")));
         }
+    };
+    for state in &decl.states {
+        check(&STATE, state.name.span, state);
     }
-    for one in decl.commands.iter().filter(|one| one.pattern.is_none()) {
-        missing(one.name.span, "a command", "pattern");
+    for transition in &decl.transitions {
+        check(&TRANSITION, transition.number.span, transition);
+    }
+    for command in &decl.commands {
+        check(&COMMAND, command.name.span, command);
     }
 }
 

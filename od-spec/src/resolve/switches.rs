@@ -47,17 +47,18 @@ impl Figures<'_, '_> {
     }
 
     fn placed<'s>(&self, decl: &'s Spanned<SwitchDecl>, diagnostics: &mut Diagnostics) -> Option<Placed<'s>> {
-        let SwitchDecl { what, below, above, back_by, back_at, unsure } = &decl.value;
-        let (side, threshold) = match one_of(("below", below), ("above", above), *unsure, decl, diagnostics)?
-        {
-            Either::First(name) => (SwitchSide::Below, name),
-            Either::Second(name) => (SwitchSide::Above, name),
+        let SwitchDecl { what, below, above, back_by, back_at } = &decl.value;
+        // That one of two is missing, or both are there, was reported by their keys.
+        let (side, threshold) = match (below, above) {
+            (Some(name), None) => (SwitchSide::Below, name),
+            (None, Some(name)) => (SwitchSide::Above, name),
+            (Some(_), Some(_)) | (None, None) => return None,
         };
-        let (back, is_difference) =
-            match one_of(("back-by", back_by), ("back-at", back_at), *unsure, decl, diagnostics)? {
-                Either::First(name) => (name, true),
-                Either::Second(name) => (name, false),
-            };
+        let (back, is_difference) = match (back_by, back_at) {
+            (Some(name), None) => (name, true),
+            (None, Some(name)) => (name, false),
+            (Some(_), Some(_)) | (None, None) => return None,
+        };
         let (threshold_id, _) = self.entry(threshold, diagnostics)?;
         let (back_id, _) = self.entry(back, diagnostics)?;
         let switch = Switch {
@@ -67,51 +68,6 @@ impl Figures<'_, '_> {
             back: if is_difference { SwitchBack::By(back_id) } else { SwitchBack::At(back_id) },
         };
         Some(Placed { switch, threshold, back })
-    }
-}
-
-/// Which of two keys is written.
-enum Either<'a> {
-    First(&'a Name),
-    Second(&'a Name),
-}
-
-/// The one of two keys that is written; both are one too many, none is one too few.
-fn one_of<'a>(
-    (first_key, first): (&str, &'a Option<Name>),
-    (second_key, second): (&str, &'a Option<Name>),
-    unsure: bool,
-    decl: &Spanned<SwitchDecl>,
-    diagnostics: &mut Diagnostics,
-) -> Option<Either<'a>> {
-    match (first, second) {
-        (Some(name), None) => Some(Either::First(name)),
-        (None, Some(name)) => Some(Either::Second(name)),
-        (Some(one), Some(other)) => {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::CONFLICTING_KEYS,
-                    other.span,
-                    format!("`{first_key}` and `{second_key}` exclude each other"),
-                )
-                .with(one.span, format!("`{first_key}` is here"))
-                .help("keep one of the two"),
-            );
-            None
-        }
-        (None, None) => {
-            if !unsure {
-                diagnostics.push(
-                    Diagnostic::new(
-                        codes::MISSING_KEY,
-                        decl.span.part(0, 1),
-                        format!("a switch needs the key `{first_key}` or `{second_key}`"),
-                    )
-                    .help(format!("add `{first_key}:` or `{second_key}:` with an entry")),
-                );
-            }
-            None
-        }
     }
 }
 

@@ -13,7 +13,7 @@ use crate::model::{
     BitField, Entry, EntryId, Level, NamedBits, Signal, SignalCarrier, Timing, TimingStep, TypeKind, Value,
 };
 use crate::scalar;
-use crate::source::{Span, Spanned};
+use crate::source::Spanned;
 use crate::wording::{allowed, format_value};
 
 /// What a signal is, with what its levels are read against.
@@ -72,12 +72,7 @@ impl Figures<'_, '_> {
         decl: &'s Spanned<SignalDecl>,
         diagnostics: &mut Diagnostics,
     ) -> Option<Carrier<'s>> {
-        let SignalDecl { named_type, bit, entry, unsure, .. } = &decl.value;
-        let mut missing = |what: &str, help: &str| {
-            if !unsure {
-                diagnostics.push(Diagnostic::new(codes::MISSING_KEY, start(decl), what).help(help));
-            }
-        };
+        let SignalDecl { named_type, bit, entry, .. } = &decl.value;
         match (named_type, bit, entry) {
             (Some(named_type), Some(bit), None) => {
                 let (name, field) = self.field(named_type, bit, diagnostics)?;
@@ -87,30 +82,8 @@ impl Figures<'_, '_> {
                 let (id, entry) = self.entry(entry, diagnostics)?;
                 Some(Carrier::Entry { id, entry })
             }
-            (Some(other), _, Some(entry)) | (None, Some(other), Some(entry)) => {
-                diagnostics.push(
-                    Diagnostic::new(
-                        codes::CONFLICTING_KEYS,
-                        entry.span,
-                        "a signal is a bit or the value of an entry",
-                    )
-                    .with(other.span, "the bit is here")
-                    .help("keep `type` and `bit`, or `entry`"),
-                );
-                None
-            }
-            (Some(_), None, None) => {
-                missing("a signal with `type` needs the key `bit`", "add `bit:`");
-                None
-            }
-            (None, Some(_), None) => {
-                missing("a signal with `bit` needs the key `type`", "add `type:`");
-                None
-            }
-            (None, None, None) => {
-                missing("nothing says what the signal is", "write `type:` and `bit:`, or `entry:`");
-                None
-            }
+            // Reported by the keys of a signal.
+            _ => None,
         }
     }
 
@@ -157,11 +130,6 @@ fn named_bits(named_type: &Name, name: &str, field: &BitField) -> NamedBits {
         last: field.last,
         name: name.to_owned(),
     }
-}
-
-/// The start of what is written about a signal: all of it would be too long to be shown.
-fn start(decl: &Spanned<SignalDecl>) -> Span {
-    decl.span.part(0, 1)
 }
 
 /// `1 step`, `2 steps`.

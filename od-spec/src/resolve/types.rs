@@ -7,9 +7,7 @@ use crate::ast::{BitDecl, BitRange, TypeDecl, ValueDecl, Words};
 use crate::check::codes as rule_codes;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{
-    BitField, BitUsage, DataType, EnumValue, ModeMeaning, NamedType, Statement, Text, TypeKind,
-};
+use crate::model::{BitField, DataType, EnumValue, ModeMeaning, NamedType, Statement, Text, TypeKind};
 use crate::source::{FileId, Span, Spanned};
 
 /// Resolves a type; `None` when it is too broken to be used.
@@ -43,30 +41,8 @@ pub(super) fn resolve(decl: &TypeDecl, maker: FileId, diagnostics: &mut Diagnost
             TypeKind::Enum(values(list, (low, high), &format!("{base}"), diagnostics).into())
         }
         (None, Some(list)) => TypeKind::Bits(bits(decl, list, base, diagnostics)?),
-        (Some(_), Some(_)) => {
-            diagnostics.push(
-                Diagnostic::new(
-                    codes::CONFLICTING_KEYS,
-                    decl.name.span,
-                    format!("type `{}` has `values` and `bits`", shorten(&decl.name.value)),
-                )
-                .help("keep `values:` for an enum, or `bits:` for a bit field"),
-            );
-            return None;
-        }
-        (None, None) => {
-            if !decl.unsure {
-                diagnostics.push(
-                    Diagnostic::new(
-                        codes::MISSING_KEY,
-                        decl.name.span,
-                        format!("type `{}` needs the key `values` or `bits`", shorten(&decl.name.value)),
-                    )
-                    .help("add `values:` for an enum, or `bits:` for a bit field"),
-                );
-            }
-            return None;
-        }
+        // Reported by the keys of a type.
+        (Some(_), Some(_)) | (None, None) => return None,
     };
     let stated = Statement::written(decl.name.span, maker);
     Some(NamedType { name: decl.name.value.clone(), base, about: words(&decl.about), kind, stated })
@@ -178,12 +154,6 @@ fn bits(
 
 fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
     let BitRange { first, last } = bit.bits.value;
-    if bit.usage == BitUsage::Used && bit.name.is_none() && bit.modes.is_empty() {
-        diagnostics.push(
-            Diagnostic::new(codes::MISSING_KEY, bit.bits.span, "a bit needs the key `name`")
-                .help("name it, or write `reserved` or `unused`"),
-        );
-    }
     let highest = (1i128 << (last - first + 1)) - 1;
     BitField {
         first,

@@ -1,5 +1,8 @@
 //! What is generated and checked in is current, and the same on every run.
 
+use std::fs;
+use std::path::Path;
+
 use od_formats::{Selection, artifacts};
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile};
@@ -14,6 +17,19 @@ fn checked_in_texts_are_current() {
     if let Some(difference) = generate::first_difference(generate::texts().unwrap()) {
         panic!("{difference}");
     }
+    assert_eq!(generate::left_pages(&od_tests::root()).unwrap(), [""; 0]);
+}
+
+#[test]
+fn a_page_of_a_code_that_is_gone_is_found() {
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("left-pages");
+    for folder in ["language", "messages"] {
+        fs::create_dir_all(root.join("docs/book").join(folder)).unwrap();
+    }
+    for page in ["language/index.md", "messages/OD0101.md", "messages/OD0100.md"] {
+        fs::write(root.join("docs/book").join(page), "").unwrap();
+    }
+    assert_eq!(generate::left_pages(&root).unwrap(), ["docs/book/messages/OD0100.md"]);
 }
 
 /// Everything a specification becomes, in one string of bytes.

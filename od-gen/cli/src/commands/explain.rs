@@ -20,12 +20,7 @@ pub(crate) fn run(args: &ExplainArgs) -> u8 {
         return print(&od_spec::all_codes().into_iter().map(line).collect::<String>());
     }
     match od_spec::code(id) {
-        Some(code) => print(&format!(
-            "{code} ({}): {}\n\n{}",
-            code.severity.word(),
-            code.title,
-            od_reference::explanation(code)
-        )),
+        Some(code) => print(&od_reference::explained(code)),
         None => {
             let id = visible(id);
             anstream::eprintln!(

@@ -167,7 +167,7 @@ fn hover_tells_facts_meanings_and_raw_values() {
             "heartbeat producer",
             "feature **heartbeat producer**",
         ),
-        ("pdo: transmit", "pd‸o: transmit", "pdo", "PDOs it may be mapped into"),
+        ("pdo: transmit", "pd‸o: transmit", "pdo", "PDOs that it may be mapped into"),
         ("  in order:", "  in or‸der:", "in order", "`0x2002.1 < 0x2002.2`"),
         ("receive: {1:", "receive: {‸1:", "1", "RPDO 1, 200h + node-ID"),
     ] {

@@ -1,7 +1,7 @@
 //! The keys of the language.
 
 use lsp_types::CompletionItemKind;
-use od_spec::keys::{Key, Keys, Shape};
+use od_spec::keys::{Key, Keys, Need, Shape};
 use od_spec::yaml::Node;
 
 use super::items::{Insert, Offer, Written};
@@ -17,7 +17,8 @@ pub(super) fn of_map(map: &Node, keys: &'static Keys, written: &Written, wanted:
 }
 
 fn offer(key: &Key, written: &Written, insertion: Insertion) -> Offer {
-    let must = if key.required { "required" } else { "" };
+    let is_required = key.need == Need::Required;
+    let must = if is_required { "required" } else { "" };
     let about = match key.example {
         Some(example) => format!("{}\n\n```yaml\n{}: {example}\n```", key.about, key.name),
         None => key.about.to_owned(),
@@ -31,7 +32,7 @@ fn offer(key: &Key, written: &Written, insertion: Insertion) -> Offer {
     };
     Offer {
         insert,
-        rank: if key.required { 1 } else { 3 },
+        rank: if is_required { 1 } else { 3 },
         ..Offer::name(key.name, CompletionItemKind::PROPERTY).detail(must).about(Some(about))
     }
 }

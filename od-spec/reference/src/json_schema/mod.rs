@@ -16,7 +16,9 @@ mod plants;
 
 use serde::{Serialize, Serializer};
 
-use od_spec::keys::{CHANNELS, Key, KeyKind, Keys, NumberedName, PART, PLANT, SPEC, Shape, VERSION};
+use od_spec::keys::{
+    CHANNELS, Choice, Key, KeyKind, Keys, Need, NumberedName, PART, PLANT, SPEC, Shape, VERSION,
+};
 use od_spec::model::{Access, DataType};
 
 pub use parameters::parameter_schema;
@@ -50,16 +52,15 @@ fn file() -> Vec<(&'static str, Json)> {
     let mut members = members(&SPEC);
     let only_part = |key: &&Key| SPEC.keys.iter().all(|known| known.name != key.name);
     let of_part = PART.keys.iter().filter(only_part).map(|key| (key.name.to_owned(), property(key)));
-    let required = |keys: &Keys| {
-        let names = keys.keys.iter().filter(|key| key.required).map(|key| key.name);
-        object([("required", texts(names))])
-    };
     for (name, member) in &mut members {
         match (*name, member) {
             ("properties", Json::Object(properties)) => {
                 properties.splice(1..1, of_part.clone()).for_each(drop);
             }
-            ("required", member) => (*name, *member) = ("anyOf", Json::List(FILES.map(required).into())),
+            ("required", member) => {
+                let of_file = |keys| object([("required", required(keys))]);
+                (*name, *member) = ("anyOf", Json::List(FILES.map(of_file).into()));
+            }
             _ => {}
         }
     }
@@ -150,13 +151,43 @@ fn reference(definition: &str) -> Json {
 /// The members of the schema of a map with fixed keys.
 fn members(keys: &Keys) -> Vec<(&'static str, Json)> {
     let properties = keys.keys.iter().map(|key| (key.name, property(key)));
-    let required: Vec<&str> = keys.keys.iter().filter(|key| key.required).map(|key| key.name).collect();
     let mut members = vec![("type", text("object")), ("properties", object(properties))];
-    if !required.is_empty() {
-        members.push(("required", texts(required)));
+    if keys.keys.iter().any(is_required) {
+        members.push(("required", required(keys)));
+    }
+    let choices: Vec<Json> = keys.choices.iter().filter_map(|choice| depend(*choice)).collect();
+    if !choices.is_empty() {
+        members.push(("allOf", Json::List(choices)));
     }
     members.push(("additionalProperties", Json::Bool(false)));
     members
+}
+
+fn is_required(key: &Key) -> bool {
+    key.need == Need::Required
+}
+
+fn required(keys: &Keys) -> Json {
+    texts(keys.keys.iter().filter(|key| is_required(key)).map(|key| key.name))
+}
+
+/// Keys that depend on each other. Editors name the first of the keys that may be missing, which says little where there are
+/// many; what may be inherited, only the compiler sees.
+fn depend(choice: Choice) -> Option<Json> {
+    const FEW: usize = 4;
+    let each = |keys: &[&'static str]| {
+        Json::List(keys.iter().map(|key| object([("required", texts([*key]))])).collect())
+    };
+    match choice {
+        Choice::One(keys) if keys.len() <= FEW => Some(object([("oneOf", each(keys))])),
+        Choice::Any(keys) if keys.len() <= FEW => Some(object([("anyOf", each(keys))])),
+        Choice::One(_) | Choice::Any(_) | Choice::AnyInherited(_) => None,
+        Choice::Together(keys) => {
+            let others =
+                |key: &&'static str| (*key, texts(keys.iter().copied().filter(|other| other != key)));
+            Some(object([("dependencies", object(keys.iter().map(others)))]))
+        }
+    }
 }
 
 /// The schema of a key's value, with what editors show about the key.

@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 
 use crate::json_schema::{slug, title};
-use od_spec::keys::{ENTRY, Key, KeyKind, Keys, Shape, VERSION};
+use od_spec::keys::{Choice, ENTRY, Key, KeyKind, Keys, Need, Shape, VERSION};
 
 /// The section about one kind of map: its heading and its keys.
-pub(super) fn section(keys: &Keys) -> String {
-    let mut out = format!("### {}\n\n", heading(keys));
+pub(super) fn section(keys: &Keys, level: &str) -> String {
+    let mut out = format!("{level} {}\n\n", heading(keys));
     table(keys, &mut out);
     out.truncate(out.trim_end().len());
     out
@@ -23,7 +23,12 @@ fn link(keys: &Keys) -> String {
     format!("[{}](#{})", keys.name, slug(keys.name))
 }
 
-/// One row per key. Keys that a map shares with entries are named below the table only.
+/// A link without an article.
+pub(super) fn short_link(keys: &Keys) -> String {
+    format!("[{}](#{})", title(keys.name), slug(keys.name))
+}
+
+/// One row per key, then which keys depend on each other. Keys that a map shares with entries are named below only.
 fn table(keys: &Keys, out: &mut String) {
     let TableKeys { explained, shared } = split(keys);
     let examples = explained.iter().any(|key| key.example.is_some());
@@ -33,19 +38,52 @@ fn table(keys: &Keys, out: &mut String) {
         "| Key | Value | Required | Meaning |\n| --- | --- | --- | --- |\n"
     });
     for key in explained {
-        let required = if key.required { "yes " } else { "" };
-        let _ =
-            write!(out, "| `{}` | {} | {required}| {} |", key.name, cell(&value(key.shape)), cell(key.about));
+        let (name, value, about) = (key.name, cell(&value(key.shape)), cell(key.about));
+        let _ = write!(out, "| `{name}` | {value} | {}| {about} |", required(key, keys));
         if examples {
             let example = key.example.map(|example| format!(" `{}`", cell(example))).unwrap_or_default();
             let _ = write!(out, "{example} |");
         }
         out.push('\n');
     }
-    if !shared.is_empty() {
-        let names = shared.iter().map(|key| format!("`{}`", key.name)).collect::<Vec<_>>().join(", ");
-        let _ = write!(out, "\nAnd these keys of {}: {names}.\n", link(&ENTRY));
+    for choice in keys.choices {
+        let _ = write!(out, "\n{}\n", sentence(*choice));
     }
+    if !shared.is_empty() {
+        let names = shared.iter().map(|key| format!("`{}`", key.name)).collect::<Vec<_>>();
+        let _ = write!(out, "\nAnd these keys of {}: {}.\n", link(&ENTRY), names.join(", "));
+    }
+}
+
+/// The cell that says whether a key is required.
+fn required(key: &Key, keys: &Keys) -> &'static str {
+    let is_of =
+        |choice: &&Choice| choice.keys().contains(&key.name) && !matches!(choice, Choice::Together(_));
+    match (key.need, keys.choices.iter().find(is_of)) {
+        (Need::Required, _) => "yes ",
+        (Need::Inherited, _) => "unless inherited ",
+        (Need::Optional, Some(_)) => "one of ",
+        (Need::Optional, None) => "",
+    }
+}
+
+/// How keys depend on each other.
+fn sentence(choice: Choice) -> String {
+    let names = match choice.keys() {
+        keys @ ([] | [_] | [_, _] | [_, _, _] | [_, _, _, _]) => joined(keys, "and"),
+        _ => "the keys marked \"one of\"".to_owned(),
+    };
+    match choice {
+        Choice::One(_) => format!("Exactly one of {names} is required."),
+        Choice::Any(_) => format!("At least one of {names} is required."),
+        Choice::AnyInherited(_) => format!("At least one of {names} is required, unless inherited."),
+        Choice::Together(_) => format!("{names} are used together."),
+    }
+}
+
+/// The keys that have a row of their own.
+pub(super) fn explained(keys: &Keys) -> Vec<&Key> {
+    split(keys).explained
 }
 
 /// The keys of a map in the reference.
@@ -109,7 +147,7 @@ fn value(shape: Shape) -> String {
         Shape::List(inner) => format!("list: {}", value(*inner)),
         Shape::OneOrMore(inner) => format!("{}, or a list of such", value(*inner)),
         Shape::ShortOr(short, keys) => format!("{} or {}", value(*short), link(keys)),
-        Shape::Feature => "text, or text and a number behind a colon".to_owned(),
+        Shape::Feature => "text, or text, a colon and a number".to_owned(),
     }
 }
 
@@ -118,9 +156,14 @@ fn limit(high: i128) -> String {
 }
 
 fn one_of(words: &[&str]) -> String {
+    joined(words, "or")
+}
+
+/// Words as code, with another word before the last one.
+fn joined(words: &[&str], before_last: &str) -> String {
     let mut words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
     let last = words.pop().unwrap_or_default();
-    if words.is_empty() { last } else { format!("{} or {last}", words.join(", ")) }
+    if words.is_empty() { last } else { format!("{} {before_last} {last}", words.join(", ")) }
 }
 
 const fn key_kind(kind: KeyKind) -> &'static str {

@@ -1,10 +1,10 @@
-//! Words of the language that are explained one by one: what a key with a choice of words may say.
+//! Words of the language that are explained one by one: the values of a key with a choice of words.
 
 use std::fmt::Write as _;
 
 /// The words of one key.
 pub(super) struct WordTable {
-    /// What stands for the table in a chapter.
+    /// The mark of the table in a chapter.
     pub mark: &'static str,
     /// Each word and its meaning.
     pub meanings: &'static [(&'static str, &'static str)],
@@ -21,7 +21,7 @@ static STORAGE: WordTable = WordTable {
         ("communication", "saved with the communication parameters, 1010h.2"),
         ("application", "saved with the application parameters, 1010h.3"),
         ("manufacturer", "saved with parameters of the manufacturer's choice, 1010h.4 and above"),
-        ("remanent", "kept over power-off by the device itself, without a command"),
+        ("remanent", "kept by the device itself at power-off, without a command"),
     ],
 };
 
@@ -31,7 +31,7 @@ static ROUNDING: WordTable = WordTable {
     meanings: &[
         ("down", "the step below"),
         ("up", "the step above"),
-        ("nearest", "the nearest step, halves away from zero"),
+        ("nearest", "the nearest step; halves are rounded away from zero"),
         ("zero", "the step nearer to zero"),
     ],
 };
@@ -67,8 +67,8 @@ static ERRATA: WordTable = WordTable {
         ("values", "a value table"),
         ("table", "a table's number, caption or headings"),
         ("text", "running text"),
-        ("gap", "the manual is silent, and something had to be chosen"),
-        ("profile", "the manual departs from a CiA profile; what the manual says is kept"),
+        ("gap", "the manual states nothing, and something had to be chosen"),
+        ("profile", "the manual differs from a CiA profile; the specification follows the manual"),
     ],
 };
 

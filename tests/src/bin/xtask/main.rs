@@ -211,7 +211,7 @@ fn write() -> Result<(), Failure> {
         println!("{} {path}", if changed { "wrote" } else { "     " });
     }
     for path in generate::prune()? {
-        println!("removed generated/{path}");
+        println!("removed {path}");
     }
     Ok(())
 }
@@ -222,8 +222,6 @@ fn check() -> Result<(), Failure> {
     }
     match generate::left()?.first() {
         None => Ok(()),
-        Some(path) => {
-            Err(format!("nothing makes generated/{path} any more\nrun `cargo xtask generate`").into())
-        }
+        Some(path) => Err(format!("nothing makes {path} any more\nrun `cargo xtask generate`").into()),
     }
 }
