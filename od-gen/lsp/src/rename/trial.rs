@@ -1,7 +1,6 @@
 //! Whether changed texts say the same as before.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use od_readers::remark;
@@ -12,6 +11,7 @@ use od_spec::yaml::Node;
 use od_spec::{Loader, compile};
 
 use crate::analysis::Analysis;
+use crate::place::beside;
 use crate::trees::Trees;
 
 /// Gives texts by their names, and their trees.
@@ -22,8 +22,10 @@ struct Texts {
 
 impl Loader for Texts {
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String> {
-        let name = Path::new(from).parent().unwrap_or(Path::new("")).join(path).display().to_string();
-        self.by_name.get(&name).map(|text| text.clone().into_bytes()).ok_or_else(|| "no such file".to_owned())
+        self.by_name
+            .get(&beside(from, path))
+            .map(|text| text.clone().into_bytes())
+            .ok_or_else(|| "no such file".to_owned())
     }
 
     fn tree(
@@ -74,7 +76,7 @@ pub(super) fn changed(file: FileId, text: &str, changes: &[(Span, String)]) -> S
 }
 
 /// A message of which there are more than before, of its code.
-fn news<'a>(before: &Diagnostics, after: &'a Diagnostics) -> Option<&'a Diagnostic> {
+pub(super) fn news<'a>(before: &Diagnostics, after: &'a Diagnostics) -> Option<&'a Diagnostic> {
     let count = |list: &Diagnostics, id: &str| list.iter().filter(|one| one.code.id == id).count();
     after.iter().find(|one| count(after, one.code.id) > count(before, one.code.id))
 }
