@@ -17,7 +17,9 @@ fn place(text: &str, after: &str, needle: &str) -> (u32, u32) {
 }
 
 fn labels(answer: &Value) -> Vec<&str> {
-    answer["items"].as_array().unwrap().iter().map(|item| item["label"].as_str().unwrap()).collect()
+    let mut items: Vec<&Value> = answer["items"].as_array().unwrap().iter().collect();
+    items.sort_by_key(|item| item["sortText"].as_str().unwrap());
+    items.iter().map(|item| item["label"].as_str().unwrap()).collect()
 }
 
 #[test]

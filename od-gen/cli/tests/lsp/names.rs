@@ -142,7 +142,8 @@ fn hover_tells_what_a_section_of_an_eds_says() {
     assert!(hover("[1000]", "AccessType=").starts_with("`1000h` **Device type**\n"));
     assert!(hover("[1018]", "[1018]").starts_with("`1018h` **Identity object."));
     assert_eq!(hover("[DeviceInfo]", "VendorName="), "");
-    assert_eq!(hover("[MandatoryObjects]", "1="), "");
+    // A list names objects.
+    assert!(hover("[MandatoryObjects]", "1=").starts_with("`1000h` **Device type**\n"));
 }
 
 #[test]
@@ -365,7 +366,7 @@ fn a_rename_changes_every_place_or_says_why_not() {
         ("name: mode of", "name: mo‸de of", " ", "cannot be empty"),
         ("name: mode of", "name: mo‸de of", "temperature °", "with this name"),
         ("title: Heater", "title: Hea‸ter", "x", "there is no name here"),
-        ("access: rw, default: 0, writable", "acc‸ess: rw, default: [0, writable", "x", "is no YAML"),
+        ("access: rw, default: 0, writable", "acc‸ess: rw, default: [0, writable", "x", "is not valid YAML"),
     ] {
         let refused = rename(from, to, name).unwrap_err();
         assert!(refused.contains(reason), "{to} {name}: {refused}");
@@ -425,7 +426,7 @@ fn only_keys_that_check_takes_are_offered_and_the_usual_ones_first() {
         items.sort_by_key(|item| item["sortText"].as_str().unwrap().to_owned());
         items.iter().map(|item| item["label"].as_str().unwrap().to_owned()).collect()
     };
-    let (items, _) = session.complete("{name: switch,", "{name: switch, ‸");
+    let (items, _) = session.complete("{name: switch,", "{name: switch, ‸,");
     let of_var = labels(&items);
     assert!(
         !of_var.iter().any(|key| ["outside", "rounding", "omit", "sub0"].contains(&key.as_str())),

@@ -26,7 +26,8 @@ fn lines(said: &[Value]) -> Vec<u64> {
 fn offered(client: &mut Client, name: &str, right: &str, from: &str, to: &str) -> Vec<String> {
     assert!(right.contains(from), "{from}");
     client.open(name, right);
-    client.diagnostics(name, 1);
+    // An answer about it: it was read.
+    client.request_about("textDocument/documentSymbol", name);
     let (text, position) = marked(&right.replacen(from, to, 1));
     client.replace(name, 2, &text);
     let answer = client.request_at("textDocument/completion", name, position);

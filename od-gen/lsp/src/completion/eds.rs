@@ -2,11 +2,11 @@
 
 use lsp_types::{CompletionItem, CompletionItemKind, Position};
 use od_spec::eds::{Document, keys_of_section};
-use od_spec::model::{Access, DataType, ObjectKind};
+use od_spec::model::{DataType, ObjectKind};
 use od_spec::source::Span;
 
 use super::Insertion;
-use super::items::{Insert, Offer, Written};
+use super::items::{Insert, Offer, Written, access_types};
 use crate::snapshot::Snapshot;
 
 /// What could be written at a position of an EDS or DCF.
@@ -79,9 +79,7 @@ fn of_value(key: &str) -> Vec<Offer> {
             kinds.into_iter().map(|kind| (format!("0x{:X}", kind.code()), kind.name().to_owned())).collect(),
         )
     } else if is("AccessType") {
-        let word =
-            |(order, word): (usize, &&str)| Offer { order, ..Offer::word(word, CompletionItemKind::KEYWORD) };
-        Access::WORDS.iter().enumerate().map(word).collect()
+        access_types()
     } else if is("PDOMapping")
         || ["BaudRate_", "Dummy", "SimpleBootUp"].into_iter().any(begins)
         || ["GroupMessaging", "LSS_Supported", "CANopenManager"].into_iter().any(is)

@@ -5,6 +5,7 @@ use lsp_types::{
     MarkupKind, Position, Range, TextEdit,
 };
 use od_import::yaml::spelled;
+use od_spec::model::Access;
 use od_spec::source::Span;
 
 use super::{Insertion, MARK};
@@ -174,6 +175,15 @@ impl Offer {
             ..CompletionItem::default()
         }
     }
+}
+
+/// The access types, the one of constants last.
+pub(super) fn access_types() -> Vec<Offer> {
+    let words = Access::WORDS.iter().enumerate().map(|(order, word)| Offer {
+        order: if *word == Access::Const.word() { Access::WORDS.len() } else { order },
+        ..Offer::word(word, CompletionItemKind::KEYWORD)
+    });
+    words.collect()
 }
 
 /// A text as a snippet without places for the cursor.

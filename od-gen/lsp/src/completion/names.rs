@@ -9,7 +9,7 @@ use od_spec::wording::Language;
 use od_spec::yaml::Node;
 
 use super::entries;
-use super::items::{Insert, Offer, Written};
+use super::items::{Insert, Offer, Written, access_types};
 use super::{MARK, Wanted, keys, long_form};
 use crate::cursor::entry_around;
 use crate::library;
@@ -96,7 +96,7 @@ pub(super) fn of_value(shape: Shape, written: &Written, wanted: &Wanted<'_>) -> 
         Shape::YesNo => words(&["yes", "no"]),
         Shape::Version => words(&[&VERSION.to_string()]),
         Shape::Access => {
-            let mut offers = words(Access::WORDS);
+            let mut offers = access_types();
             let locked = Access::WORDS.iter().filter(|word| !matches!(**word, "ro" | "const"));
             offers.extend(
                 locked

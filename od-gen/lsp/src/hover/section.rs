@@ -29,21 +29,16 @@ pub(super) fn of_section(snapshot: &Snapshot, position: Position) -> Option<(Str
     Some((entry::of_entry(system, id, &[], Words::of(Some(system)))?, place))
 }
 
-/// The entry that an element of an XDD or XDC describes, by the last model without errors.
+/// The entry that the element at a position of an XDD or XDC describes, by the last model without errors.
 pub(super) fn of_element(snapshot: &Snapshot, position: Position) -> Option<(String, Span)> {
-    let system = snapshot.system()?;
-    let offset = snapshot.offset(position);
-    let (good, file, earlier) = snapshot.earlier(offset)?;
-    let earlier = u32::try_from(earlier).ok()?;
-    let holds = |span: Span| span.file == file && (span.start..=span.end).contains(&earlier);
-    let entries = system.devices.iter().flat_map(od_spec::model::Dictionary::entries);
-    let found = entries.filter(|(_, object, entry)| holds(entry.span) || holds(object.span));
-    // The innermost element.
-    let (id, object, one) = found.min_by_key(|(_, object, entry)| {
-        let span = if holds(entry.span) { entry.span } else { object.span };
-        (span.end - span.start, entry.sub)
-    })?;
-    let span = if holds(one.span) { one.span } else { object.span };
-    let span = snapshot.span_now(good, span)?;
-    Some((entry::of_entry(system, id, &[], Words::of(Some(system)))?, span))
+    let (good, system) = snapshot.good.as_ref().zip(snapshot.system())?;
+    let (text, offset) = (snapshot.text(), snapshot.offset(position));
+    let start = text[..offset].rfind('<')?;
+    let end = offset + text[offset..].find('>')? + 1;
+    let byte = |at: usize| u32::try_from(at).ok();
+    let element = Span { file: snapshot.file, start: byte(start)?, end: byte(end)? };
+    let is_there = |span| snapshot.span_now(good, span).is_some_and(|span| element.contains(span));
+    let mut entries = system.devices.iter().flat_map(od_spec::model::Dictionary::entries);
+    let (id, ..) = entries.find(|(_, object, entry)| is_there(entry.span) || is_there(object.span))?;
+    Some((entry::of_entry(system, id, &[], Words::of(Some(system)))?, element))
 }

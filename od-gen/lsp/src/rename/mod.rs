@@ -9,7 +9,7 @@ mod nodes;
 mod tests;
 mod trial;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use lsp_types::{Position, PrepareRenameResponse, Range, TextEdit, Uri, WorkspaceEdit};
 use od_spec::names::{By, Definition, DefinitionId, Found, Kind, Names, Spelling};
@@ -49,28 +49,29 @@ pub(super) fn rename(
     let renamed: BTreeMap<DefinitionId, String> = all.iter().map(|id| (*id, name.to_owned())).collect();
     let changes = edits::edits(&snapshot.now.sources, names, &renamed)?;
     trial::check(&snapshot.now, &changes)?;
-    let mut edits = text_edits(&snapshot.now, &changes, snapshot.encoding)?;
+    let mut edits = text_edits(&snapshot.now, changes.iter(), snapshot.encoding)?;
     for (analysis, changes) in nodes::changes(&snapshot.now, &renamed, &changes, workspace)? {
-        edits.extend(text_edits(&analysis, &changes, snapshot.encoding)?);
+        edits.extend(text_edits(&analysis, changes.iter(), snapshot.encoding)?);
     }
-    Ok(WorkspaceEdit { changes: Some(edits), ..WorkspaceEdit::default() })
+    Ok(WorkspaceEdit { changes: Some(edits.into_iter().collect()), ..WorkspaceEdit::default() })
 }
 
-/// Changes of the files of an analysis, in the words of the protocol.
-#[expect(clippy::mutable_key_type, reason = "the protocol has a map by URIs, which nothing changes")]
-fn text_edits(
+/// Changes of the files of an analysis, as the protocol has them.
+fn text_edits<'c>(
     analysis: &Analysis,
-    changes: &[(Span, String)],
+    changes: impl Iterator<Item = &'c (Span, String)>,
     encoding: Encoding,
-) -> Result<HashMap<Uri, Vec<TextEdit>>, String> {
-    let mut edits: HashMap<Uri, Vec<TextEdit>> = HashMap::new();
+) -> Result<Vec<(Uri, Vec<TextEdit>)>, String> {
+    let mut by_file: BTreeMap<_, Vec<TextEdit>> = BTreeMap::new();
     for (span, new_text) in changes {
-        let uri = analysis.uri(span.file).cloned();
-        let uri = uri.ok_or_else(|| "a file of the specification has no address".to_owned())?;
         let edit = TextEdit { range: analysis.range(*span, encoding), new_text: new_text.clone() };
-        edits.entry(uri).or_default().push(edit);
+        by_file.entry(span.file).or_default().push(edit);
     }
-    Ok(edits)
+    let edits = by_file.into_iter().map(|(file, edits)| {
+        let uri = analysis.uri(file).cloned();
+        uri.map(|uri| (uri, edits)).ok_or_else(|| "a file of the specification has no address".to_owned())
+    });
+    edits.collect()
 }
 
 /// The place with a name in it, and the name's.
