@@ -44,7 +44,7 @@ impl Span {
     }
 
     /// Whether another span lies within this one.
-    pub(crate) fn contains(self, other: Span) -> bool {
+    pub fn contains(self, other: Span) -> bool {
         self.file == other.file && self.start <= other.start && other.end <= self.end
     }
 

@@ -201,14 +201,42 @@ async def ask(
         check.that(not wrong, f"{name}: {what}: {wrong[:1]} lies outside")
 
 
+# Language, name and text of documents, and whether the extension sends them to the server.
+CONTENTS = [
+    ("yaml", "a.yaml", "# comment\n\nod-spec: 1\n", True),
+    ("yaml", "plant.yaml", "od-plant : 1\n", True),
+    ("yaml", "parameters.yaml", "services: {}\n", False),
+    ("yaml", "a.yaml", "about: od-spec is a language\n", False),
+    ("yaml", "a.od.yaml", "", True),
+    ("canopen-eds", "a.eds", "", True),
+    ("json", "a.json", "{}", False),
+]
+
+
 def of_editors(check: Check) -> None:
     """The extension for VS Code is JavaScript, as far as there is something that reads it."""
-    extension = Path(__file__).resolve().parents[1] / "editors/vscode"
-    json.loads((extension / "package.json").read_text(encoding="utf-8"))
-    json.loads((extension / "eds.json").read_text(encoding="utf-8"))
+    extension = Path(__file__).resolve().parents[2] / "od-gen/lsp/vscode"
+    manifest = json.loads((extension / "package.json").read_text(encoding="utf-8"))
+    contributes = manifest["contributes"]
+    named = [manifest["icon"], manifest["main"]]
+    named += [one["path"] for one in contributes["grammars"]]
+    named += [one["configuration"] for one in contributes["languages"] if "configuration" in one]
+    for name in named:
+        check.that((extension / name).is_file(), f"the extension names {name}, which is not there")
+    for name in extension.glob("**/*.json"):
+        json.loads(name.read_text(encoding="utf-8"))
     if node := shutil.which("node"):
-        read = subprocess.run([node, "--check", extension / "extension.js"], capture_output=True, text=True, check=False)
+        for script in extension.glob("*.js"):
+            read = subprocess.run([node, "--check", script], capture_output=True, text=True, check=False)
+            check.that(read.returncode == 0, read.stderr)
+        script = Path(__file__).resolve().parents[1] / "editors/extension.js"
+        read = subprocess.run([node, script], capture_output=True, text=True, check=False)
         check.that(read.returncode == 0, read.stderr)
+        for language, name, text, is_ours in CONTENTS:
+            code = "const [a, b, c] = process.argv.slice(1); console.log(require('./content').isOurs(a, b, () => c))"
+            command = [node, "-e", code, language, name, text]
+            said = subprocess.run(command, cwd=extension, capture_output=True, text=True, check=False)
+            check.that(said.stdout.strip() == str(is_ours).lower(), f"{name}: {said.stdout}{said.stderr}")
 
 
 async def run(odgen: Path, specs: list[Path]) -> int:

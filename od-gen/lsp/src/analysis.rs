@@ -5,18 +5,22 @@ use std::sync::{Arc, LazyLock, OnceLock};
 
 use lsp_types::{Range, Uri};
 use od_readers::remark;
-use od_spec::diag::{Diagnostic, Diagnostics};
+use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::eds::is_eds;
 use od_spec::model::{System, SystemSource};
-use od_spec::names::Names;
+use od_spec::names::{DeviceKeys, Names};
 use od_spec::plant::{Settled, is_plant, plant};
 use od_spec::source::{FileId, SourceMap, Span};
 use od_spec::xdd::is_xdd;
 use od_spec::yaml::{self, Node};
-use od_spec::{Compiled, add_source, compile, is_parameter_file, is_specification, parameter_file};
+use od_spec::{
+    Compiled, Loader as _, add_source, assign_layers, compile, is_parameter_file, is_specification,
+    parameter_file,
+};
 
+use super::buffer::Buffer;
 use super::overlay::{Buffers, Overlay, bytes_of};
-use super::place::Place;
+use super::place::{Place, beside};
 use super::position::{Encoding, Lines};
 use super::trees::Trees;
 use super::unread;
@@ -34,7 +38,7 @@ pub(super) enum Kind {
     Plant,
     /// A parameter file.
     Parameters,
-    /// Something that is none of our business.
+    /// A file that is not for this server.
     Foreign,
 }
 
@@ -66,21 +70,43 @@ pub(super) struct Analysis {
     pub sources: SourceMap,
     /// The document; `None` if it cannot be read.
     pub root: Option<FileId>,
-    /// The model, if nothing is wrong.
-    pub system: Option<System>,
+    /// What describes devices: the document itself, or the files that a parameter file or a plant names.
+    pub described: Vec<Described>,
     /// What is to be said about the texts, notes included.
     pub diagnostics: Diagnostics,
     /// The places that were asked for, whether there is something or not.
     pub asked: BTreeSet<Place>,
+    /// The encoding of the file and the first character in question, if the editor has read it in another one.
+    pub misread: Option<(&'static str, usize)>,
     files: BTreeMap<FileId, FileFacts>,
     trees: Arc<Trees>,
+}
+
+/// A specification, EDS, DCF, XDD or XDC, with what it defines.
+#[derive(Debug)]
+pub(super) struct Described {
+    /// Its file.
+    pub root: FileId,
+    /// The model, if nothing is wrong.
+    pub system: Option<Arc<System>>,
+    /// What the document calls its devices, if it is a parameter file or a plant.
+    pub devices: DeviceKeys,
     names: OnceLock<Names>,
 }
+
+impl Described {
+    const fn new(root: FileId, system: Option<Arc<System>>, devices: DeviceKeys) -> Self {
+        Self { root, system, devices, names: OnceLock::new() }
+    }
+}
+
+/// The names of what describes nothing.
+static NO_NAMES: LazyLock<Names> = LazyLock::new(Names::default);
 
 /// The lines of a text of other sources.
 static NO_LINES: LazyLock<Lines> = LazyLock::new(|| Lines::of(""));
 
-/// What is known about a text beside the text.
+/// What is known about a text.
 #[derive(Debug)]
 struct FileFacts {
     place: Place,
@@ -92,7 +118,7 @@ struct FileFacts {
 
 impl Analysis {
     /// Compiles the document at a place. `members` are open documents that say they are parts of it, `trees` what was read of its
-    /// files before, and `uri` tells how the client calls a place.
+    /// files before, and `uri` gives the client's name of a place.
     pub(super) fn of<'a>(
         place: &Place,
         members: impl Iterator<Item = &'a Place>,
@@ -104,12 +130,12 @@ impl Analysis {
             kind: Kind::Foreign,
             sources: SourceMap::new(),
             root: None,
-            system: None,
+            described: Vec::new(),
             diagnostics: Diagnostics::new(),
             asked: BTreeSet::from([place.clone()]),
+            misread: buffers.get(place).and_then(Buffer::misread),
             files: BTreeMap::new(),
             trees: Arc::clone(trees),
-            names: OnceLock::new(),
         };
         let mut loader = Overlay::new(buffers, trees);
         analysis.read(place, &mut loader, buffers);
@@ -147,18 +173,96 @@ impl Analysis {
                 let mut compiled = compile(&mut self.sources, root, loader);
                 remark(&self.sources, root, &mut compiled);
                 let Compiled { system, diagnostics, .. } = compiled;
-                (self.system, self.diagnostics) = (system, diagnostics);
+                self.diagnostics = diagnostics;
+                self.described = vec![Described::new(root, system.map(Arc::new), DeviceKeys::new())];
                 if self.kind == Kind::Specification && self.sources.files().count() == 1 {
                     unread::add(&mut self.sources, root, loader);
                 }
             }
-            Kind::Plant => self.diagnostics = of_plant(&mut self.sources, root, loader),
+            Kind::Plant => self.read_plant(root, loader),
             Kind::Parameters => {
-                parameter_file(&self.sources, root, &mut self.diagnostics);
+                self.read_parameters(root, loader);
                 self.diagnostics.sort();
             }
             Kind::Foreign => {}
         }
+    }
+
+    /// What `odgen plant check` reports about a plant.
+    fn read_plant(&mut self, root: FileId, loader: &mut Overlay<'_>) {
+        let read = plant(&mut self.sources, root, loader);
+        self.diagnostics = read.diagnostics;
+        for device in &read.devices {
+            let Some(name) = read.files.get(device.file).map(|file| &file.name) else { continue };
+            let Some((file, _)) = self.sources.files().find(|(_, file)| file.name() == name) else {
+                continue;
+            };
+            let at = self.described.iter().position(|one| one.root == file).unwrap_or_else(|| {
+                self.described.push(Described::new(
+                    file,
+                    Some(Arc::clone(&device.system)),
+                    DeviceKeys::new(),
+                ));
+                self.described.len() - 1
+            });
+            self.described[at].devices.insert(device.key.clone(), device.dictionary.key.clone());
+        }
+        for file in read.files {
+            // A foreign EDS is checked where it is opened.
+            if file.source != Some(SystemSource::Eds) {
+                self.diagnostics.append(file.diagnostics);
+            }
+        }
+        if let Some(plant) = read.plant {
+            let settled: Vec<Settled> =
+                (0..plant.classes.len()).filter_map(|class| plant.settle(class)).collect();
+            self.diagnostics.append(plant.check(&settled));
+        }
+        self.diagnostics.sort();
+    }
+
+    /// A parameter file, and its values on the device that its specification describes.
+    fn read_parameters(&mut self, root: FileId, loader: &mut Overlay<'_>) {
+        let Some(file) = parameter_file(&self.sources, root, &mut self.diagnostics) else { return };
+        let Some(spec) = &file.spec else { return };
+        let from = self.sources.file(root).name().to_owned();
+        let unreadable = |reason: &str| {
+            Diagnostic::new(codes::UNREADABLE, spec.span, format!("cannot read `{}`: {reason}", spec.value))
+                .help("name a specification, EDS or DCF relative to this file")
+        };
+        let loaded = loader.load(&spec.value, &from).map_err(|reason| unreadable(&reason));
+        let added = loaded.and_then(|bytes| {
+            let name = beside(&from, &spec.value);
+            add_source(&mut self.sources, &name, bytes).map_err(|refused| unreadable(&refused.message))
+        });
+        let described = match added {
+            Ok(described) => described,
+            Err(diagnostic) => return self.diagnostics.push(diagnostic),
+        };
+        let compiled = compile(&mut self.sources, described, loader);
+        let system = compiled.system.map(Arc::new);
+        if Kind::of(&spec.value, self.sources.file(described).text()) == Kind::Specification {
+            self.diagnostics.append(compiled.diagnostics);
+        }
+        let mut devices = DeviceKeys::new();
+        if let Some(system) = &system {
+            let named = file.device.as_ref().and_then(|key| system.device(&key.value));
+            let device = match (&file.device, system.devices.as_slice()) {
+                (None, [only]) => Some(only),
+                _ => named,
+            };
+            match (device, system.devices.first()) {
+                (Some(device), _) => {
+                    let node = file.node.map_or(1, |node| node.value);
+                    let layers = [file.layer.clone()];
+                    assign_layers(system, device, node, &layers, &mut self.diagnostics);
+                    devices.insert(String::new(), device.key.clone());
+                }
+                (None, Some(first)) => file.check_device(system, first, &mut self.diagnostics),
+                (None, None) => {}
+            }
+        }
+        self.described = vec![Described::new(described, system, devices)];
     }
 
     fn note_files(&mut self, uri: impl Fn(&Place) -> Option<Uri>) {
@@ -192,6 +296,21 @@ impl Analysis {
         self.files.get(&file).map(|facts| &facts.place)
     }
 
+    /// Where the document is.
+    pub(super) fn own_place(&self) -> Option<&Place> {
+        self.place(self.root?)
+    }
+
+    /// Whether it is a parameter file or a plant, and names the specification at a place.
+    pub(super) fn is_about_nodes_of(&self, spec: &Place) -> bool {
+        match self.kind {
+            Kind::Plant | Kind::Parameters => {
+                self.described.iter().any(|one| self.place(one.root) == Some(spec))
+            }
+            Kind::Specification | Kind::Eds | Kind::Xdd | Kind::Foreign => false,
+        }
+    }
+
     /// How the client calls a file; of a built-in library, its copy.
     pub(super) fn uri(&self, file: FileId) -> Option<&Uri> {
         self.files.get(&file)?.uri.as_ref()
@@ -203,31 +322,57 @@ impl Analysis {
         self.files.get(&file).map_or(&NO_LINES, |facts| facts.lines.get_or_init(lines))
     }
 
-    /// The syntax tree of a file; `None` where the text is no YAML, or an EDS.
+    /// Whether a file has the syntax of specifications.
+    fn is_yaml(&self, file: FileId) -> bool {
+        let source = self.sources.file(file);
+        let is_one = |kind| matches!(kind, Kind::Specification | Kind::Plant | Kind::Parameters);
+        // A plant may name an EDS.
+        is_one(self.kind) && (Some(file) == self.root || !is_eds(source.name(), source.text()))
+    }
+
+    /// The syntax tree of a file; `None` if the text is not YAML.
     pub(super) fn tree(&self, file: FileId) -> Option<&Node> {
-        let read = || match self.kind {
-            Kind::Specification | Kind::Plant | Kind::Parameters => {
-                self.trees.tree(file, self.sources.file(file), &mut Diagnostics::new())
-            }
-            Kind::Eds | Kind::Xdd | Kind::Foreign => None,
+        let read = || {
+            let tree = || self.trees.tree(file, self.sources.file(file), &mut Diagnostics::new());
+            self.is_yaml(file).then(tree).flatten()
         };
         self.files.get(&file)?.tree.get_or_init(read).as_deref()
     }
 
-    /// The syntax tree of a file of a specification; where the text is no YAML, what can be read of it.
+    /// The syntax tree of a file; if the text is not YAML at the moment, what can be read of it.
     pub(super) fn outline(&self, file: FileId) -> Option<&Node> {
-        if self.kind != Kind::Specification {
+        if !self.is_yaml(file) {
             return None;
         }
         let lenient = || yaml::lenient(file, self.sources.file(file).text());
         self.tree(file).or_else(|| Some(self.files.get(&file)?.outline.get_or_init(lenient)))
     }
 
+    /// The first model.
+    pub(super) fn system(&self) -> Option<&System> {
+        self.described.first()?.system.as_deref()
+    }
+
+    /// Whether nothing that describes devices has errors.
+    pub(super) fn has_models(&self) -> bool {
+        !self.described.is_empty() && self.described.iter().all(|one| one.system.is_some())
+    }
+
     /// What the specification defines, and what refers to it.
     pub(super) fn names(&self) -> &Names {
-        self.names.get_or_init(|| match self.root {
-            Some(root) => Names::of(&self.sources, root, |file| self.outline(file), self.system.as_ref()),
-            None => Names::default(),
+        self.names_of(0)
+    }
+
+    /// What one of the specifications defines, and what refers to it.
+    pub(super) fn names_of(&self, at: usize) -> &Names {
+        let Some(one) = self.described.get(at) else { return &NO_NAMES };
+        let is_of_another = |file: FileId| {
+            let others = self.described.iter().filter(|other| other.root != one.root);
+            others.map(|other| other.root).any(|root| file.is_one_with(root))
+        };
+        let tree = |file| self.outline(file).filter(|_| !is_of_another(file));
+        one.names.get_or_init(|| {
+            Names::with_settings(&self.sources, one.root, tree, one.system.as_deref(), &one.devices)
         })
     }
 
@@ -243,23 +388,4 @@ impl Analysis {
             None => Some(file) == self.root,
         })
     }
-}
-
-/// What `odgen plant check` says about a plant.
-fn of_plant(sources: &mut SourceMap, root: FileId, loader: &mut Overlay<'_>) -> Diagnostics {
-    let read = plant(sources, root, loader);
-    let mut diagnostics = read.diagnostics;
-    for file in read.files {
-        // An EDS of others is checked where it is opened.
-        if file.source != Some(SystemSource::Eds) {
-            diagnostics.append(file.diagnostics);
-        }
-    }
-    if let Some(plant) = read.plant {
-        let settled: Vec<Settled> =
-            (0..plant.classes.len()).filter_map(|class| plant.settle(class)).collect();
-        diagnostics.append(plant.check(&settled));
-    }
-    diagnostics.sort();
-    diagnostics
 }

@@ -1,15 +1,21 @@
 //! What the server can do, and what client and server agree on.
 
+use std::path::PathBuf;
+
 use lsp_types::{
-    CodeActionOptions, CodeActionProviderCapability, CompletionOptions, FoldingRangeProviderCapability,
-    HoverProviderCapability, InitializeParams, InitializeResult, OneOf, RenameOptions, ServerCapabilities,
-    ServerInfo, TextDocumentSyncCapability, TextDocumentSyncKind, TextDocumentSyncOptions,
-    TextDocumentSyncSaveOptions, WorkDoneProgressOptions,
+    CodeActionOptions, CodeActionProviderCapability, CodeLensOptions, Command, CompletionOptions,
+    FoldingRangeProviderCapability, HoverProviderCapability, InitializeParams, InitializeResult, OneOf,
+    RenameOptions, ServerCapabilities, ServerInfo, TextDocumentSyncCapability, TextDocumentSyncKind,
+    TextDocumentSyncOptions, TextDocumentSyncSaveOptions, WorkDoneProgressOptions,
 };
+
+use od_gen::source::plain;
+use serde_json::Value;
 
 use super::code_actions;
 use super::completion::Insertion;
 use super::position::Encoding;
+use super::uri::path_of;
 
 /// The encoding of positions that a client and the server speak.
 pub(super) fn encoding(client: &InitializeParams) -> Encoding {
@@ -18,23 +24,32 @@ pub(super) fn encoding(client: &InitializeParams) -> Encoding {
     Encoding::agreed(offered.unwrap_or_default())
 }
 
-/// Whether a client tells of files that change on the disk, where it is asked to.
+/// Whether a client reports files that change on the disk if it is asked to.
 pub(super) fn watches_files(client: &InitializeParams) -> bool {
     let workspace = client.capabilities.workspace.as_ref();
     let watched = workspace.and_then(|workspace| workspace.did_change_watched_files.as_ref());
     watched.and_then(|watched| watched.dynamic_registration).unwrap_or_default()
 }
 
-/// How a client wants completions.
+/// A text of the client's `initializationOptions`.
+pub(super) fn option(client: &InitializeParams, name: &str) -> Option<String> {
+    client.initialization_options.as_ref()?.get(name).and_then(Value::as_str).map(ToOwned::to_owned)
+}
+
+/// The folders that the client shows.
+pub(super) fn folders(client: &InitializeParams) -> Vec<PathBuf> {
+    let folders = client.workspace_folders.iter().flatten();
+    folders.filter_map(|folder| path_of(folder.uri.as_str())).map(|path| plain(&path)).collect()
+}
+
+/// How a client wants completions: by its capabilities, and `suggestNext` of its `initializationOptions`, a command of its own.
 pub(super) fn insertion(client: &InitializeParams) -> Insertion {
+    let next = option(client, "suggestNext").map(|name| Command::new("suggest".to_owned(), name, None));
     let document = client.capabilities.text_document.as_ref();
     let item = document
         .and_then(|document| document.completion.as_ref())
         .and_then(|completion| completion.completion_item.as_ref());
-    match item.and_then(|item| item.snippet_support) {
-        Some(true) => Insertion::Snippet,
-        Some(false) | None => Insertion::Text,
-    }
+    Insertion { snippets: item.and_then(|item| item.snippet_support).unwrap_or_default(), next }
 }
 
 /// What the server can do.
@@ -49,9 +64,10 @@ pub(super) fn answer(encoding: Encoding) -> InitializeResult {
                 ..TextDocumentSyncOptions::default()
             })),
             completion_provider: Some(CompletionOptions {
-                trigger_characters: Some([" ", "[", "{", ",", "."].map(str::to_owned).to_vec()),
+                trigger_characters: Some([" ", "[", "{", ",", ".", "="].map(str::to_owned).to_vec()),
                 ..CompletionOptions::default()
             }),
+            code_lens_provider: Some(CodeLensOptions { resolve_provider: Some(false) }),
             hover_provider: Some(HoverProviderCapability::Simple(true)),
             definition_provider: Some(OneOf::Left(true)),
             references_provider: Some(OneOf::Left(true)),

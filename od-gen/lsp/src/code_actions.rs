@@ -1,4 +1,4 @@
-//! What messages offer to change: quick fixes, and everything in an EDS that can be put right without anybody's decision.
+//! What messages offer to change: quick fixes, and everything in an EDS that can be fixed without a decision.
 
 use lsp_types::{
     CodeAction, CodeActionContext, CodeActionKind, CodeActionOrCommand, Range, TextEdit, Uri, WorkspaceEdit,
@@ -13,7 +13,7 @@ use super::diagnostics::translated;
 use super::formatting::{between, edits};
 use super::snapshot::Snapshot;
 
-/// Puts everything right that needs no decision.
+/// Fixes everything that needs no decision.
 const FIX_ALL: CodeActionKind = CodeActionKind::SOURCE_FIX_ALL;
 
 /// The kinds of actions that there are.
@@ -48,7 +48,7 @@ pub(super) fn actions(
     actions.into_iter().map(CodeActionOrCommand::CodeAction).collect()
 }
 
-/// Whether a kind is one of those that another one stands for: `source` stands for `source.fixAll`.
+/// Whether a kind is one of those that another one includes: `source` includes `source.fixAll`.
 fn includes(wanted: &CodeActionKind, kind: &CodeActionKind) -> bool {
     let rest = kind.as_str().strip_prefix(wanted.as_str());
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
@@ -106,7 +106,7 @@ fn title(snapshot: &Snapshot, diagnostic: &Diagnostic, edits: &[Edit]) -> String
             (_, _) => {}
         }
     }
-    format!("Put right: {}", diagnostic.code.title)
+    format!("Fix: {}", diagnostic.code.title)
 }
 
 /// What `odgen fix` makes of an EDS.
@@ -118,7 +118,7 @@ fn fix_all(snapshot: &Snapshot, uri: &Uri) -> Option<CodeAction> {
     let fixed = fix(file.name(), file.text().as_bytes()).ok()?;
     let changes = between(file.text(), fixed.text());
     (!changes.is_empty()).then(|| CodeAction {
-        title: "Put right everything that needs no decision".to_owned(),
+        title: "Fix everything that needs no decision".to_owned(),
         kind: Some(FIX_ALL),
         edit: Some(change(uri, edits(snapshot, changes))),
         ..CodeAction::default()

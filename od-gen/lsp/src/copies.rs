@@ -1,7 +1,7 @@
 //! Copies of what comes with the compiler as files: every editor can open a file, and few can open anything else.
 //!
 //! They lie in the user's folder for what can be made again, in one of the version of the program, and are written when they
-//! are first named. Where there is no such folder, there are none.
+//! are first named. Without such a folder there are no copies.
 
 use std::collections::BTreeMap;
 use std::env;

@@ -1,4 +1,4 @@
-//! What stands where a cursor is.
+//! What is at the cursor.
 
 use lsp_types::{Location, Position};
 use od_spec::model::{Dictionary, EntryId, Index, SubIndex, System};
@@ -17,13 +17,14 @@ pub(super) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// The place at a position; `None` in a document that is no specification.
+    /// The place at a position; `None` in a document that is not YAML of this language.
     pub(super) fn of(snapshot: &'a Snapshot, position: Position) -> Option<Self> {
-        if snapshot.now.kind != Kind::Specification {
-            return None;
+        match snapshot.now.kind {
+            Kind::Specification | Kind::Plant | Kind::Parameters => {}
+            Kind::Eds | Kind::Xdd | Kind::Foreign => return None,
         }
         let offset = u32::try_from(snapshot.offset(position)).ok()?;
-        Some(Self { snapshot, names: snapshot.now.names(), offset })
+        Some(Self { snapshot, names: snapshot.names(), offset })
     }
 
     /// What is defined or referred to there.
@@ -81,7 +82,7 @@ pub(super) fn entry_around(path: &[Step<'_>]) -> Option<EntryId> {
     let sub = if is_element("record") || is_element("elements") {
         number(data.next()?)?
     } else {
-        // The first element stands for all.
+        // The first element is taken for all.
         u16::from(is_element("array"))
     };
     Some(EntryId { index: Index(index), sub: SubIndex(u8::try_from(sub).ok()?) })

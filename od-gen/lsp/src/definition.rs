@@ -1,20 +1,52 @@
 //! Where something is defined, and where it is referred to.
 
 use lsp_types::{DocumentHighlight, DocumentHighlightKind, Location, Position};
-use od_spec::names::{DefinitionId, Found, Kind, Names, Spelling};
+use od_spec::model::EntryId;
+use od_spec::names::{DefinitionId, Found, Kind, Names, Spelling, Spot};
 use od_spec::source::Span;
 
+use super::analysis;
 use super::cursor::Cursor;
+use super::eds::{referring, section_of};
+use super::place::beside;
 use super::snapshot::Snapshot;
 
-/// Where what stands at a position is defined; on a definition, that place itself.
+/// Where the name at a position is defined; on a definition, that place itself.
 pub(super) fn definition(snapshot: &Snapshot, position: Position) -> Vec<Location> {
+    if snapshot.now.kind == analysis::Kind::Eds {
+        let found =
+            entry_of_eds(snapshot, position).and_then(|id| section_of(snapshot.file, snapshot.text(), id));
+        return found.and_then(|span| snapshot.location(&snapshot.now, span)).into_iter().collect();
+    }
     let Some(cursor) = Cursor::of(snapshot, position) else { return Vec::new() };
     let places = cursor.definitions().into_iter().map(|id| place(cursor.names, id));
-    places.filter_map(|span| cursor.location(span)).collect()
+    let found: Vec<Location> = places.filter_map(|span| cursor.location(span)).collect();
+    if found.is_empty() { elsewhere(&cursor).into_iter().collect() } else { found }
 }
 
-/// What refers to what stands at a position, and where it is defined if that is wanted.
+/// The entry that a value of an EDS means.
+fn entry_of_eds(snapshot: &Snapshot, position: Position) -> Option<EntryId> {
+    let offset = u32::try_from(snapshot.offset(position)).ok()?;
+    let mut all = referring(snapshot.file, snapshot.text()).into_iter();
+    Some(all.find(|one| (one.value.start..=one.value.end).contains(&offset))?.id)
+}
+
+/// What a parameter file or a plant refers to, if no specification defines it: a file, or an entry of an EDS.
+fn elsewhere(cursor: &Cursor<'_>) -> Option<Location> {
+    let snapshot = cursor.snapshot;
+    let sources = &snapshot.now.sources;
+    if let Some(Found::Reference(one)) = cursor.found()
+        && let (Some(id), Some(root)) = (one.entry, snapshot.root())
+    {
+        return cursor.location(section_of(root, sources.file(root).text(), id)?);
+    }
+    let Spot::Value { node, .. } = cursor.place()?.spot else { return None };
+    let named = beside(sources.file(snapshot.file).name(), node.text()?.value);
+    let (file, _) = sources.files().find(|(id, file)| *id != snapshot.file && file.name() == named)?;
+    cursor.location(Span { file, start: 0, end: 0 })
+}
+
+/// The references to the name at a position, and its definition if that is wanted.
 pub(super) fn references(snapshot: &Snapshot, position: Position, with_definition: bool) -> Vec<Location> {
     let Some(cursor) = Cursor::of(snapshot, position) else { return Vec::new() };
     let (definitions, references) = places(&cursor);

@@ -9,9 +9,9 @@ use od_spec::yaml::Node;
 use super::snapshot::Snapshot;
 
 /// For each fact in which the object at a place departs from its library, the change that leaves the fact to the library: its
-/// key is taken out. There is none for a key that shares its lines with something else.
+/// key is taken out. A key that shares its lines with something else has no such change.
 pub(super) fn left_to_library(snapshot: &Snapshot, place: Span) -> Vec<(String, Edit)> {
-    let Some((system, tree)) = snapshot.now.system.as_ref().zip(snapshot.tree()) else { return Vec::new() };
+    let Some((system, tree)) = snapshot.now.system().zip(snapshot.tree()) else { return Vec::new() };
     let objects = system.devices.iter().flat_map(|device| device.objects.values());
     let Some(object) = objects.filter(|object| object.span == place).find(|object| object.profile.is_some())
     else {
@@ -41,7 +41,7 @@ fn stated(object: &Object, departure: Departure) -> Option<Span> {
     (statement.author == Author::Maker).then_some(statement.span)
 }
 
-/// The map in which a value stands, and its position there.
+/// The map that a value is in, and its position there.
 fn pair_with(node: &Node, value: Span) -> Option<(&Node, usize)> {
     if let Some(at) = node.entries().iter().position(|(_, node)| node.span == value) {
         return Some((node, at));
@@ -58,12 +58,12 @@ fn without(text: &str, map: &Node, at: usize) -> Option<Span> {
     let is_comma =
         |range: std::ops::Range<usize>| text.get(range).is_some_and(|between| between.trim() == ",");
     let (start, end) = if text.get(map.span.start as usize..)?.starts_with('{') {
-        // With the comma before it, or with the one behind it.
+        // With the comma before it, or with the one after it.
         let before = at.checked_sub(1).map(|before| entries[before].1.span.end as usize);
-        let behind = entries.get(at + 1).map(|(key, _)| key.span.start as usize);
-        match (before, behind) {
+        let next = entries.get(at + 1).map(|(key, _)| key.span.start as usize);
+        match (before, next) {
             (Some(before), _) if is_comma(before..start) => (before, end),
-            (_, Some(behind)) if is_comma(end..behind) => (start, behind),
+            (_, Some(next)) if is_comma(end..next) => (start, next),
             (_, _) => return None,
         }
     } else {

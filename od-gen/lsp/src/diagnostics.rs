@@ -9,7 +9,7 @@ use lsp_types::{
 };
 use od_spec::diag::{self, Severity};
 use od_spec::rule_codes;
-use od_spec::source::FileId;
+use od_spec::source::{FileId, Span};
 
 use super::analysis::Analysis;
 use super::copies;
@@ -18,10 +18,32 @@ use super::position::Encoding;
 
 /// What is said about a file of an analysis.
 pub(super) fn of_file(analysis: &Analysis, file: FileId, encoding: Encoding) -> Vec<Diagnostic> {
-    analysis.about(file).map(|diagnostic| translated(analysis, diagnostic, encoding)).collect()
+    let of_text = analysis.about(file).map(|diagnostic| translated(analysis, diagnostic, encoding));
+    of_text.chain(misread(analysis, file, encoding)).collect()
 }
 
-/// One message: its help and its notes stand below it, as they do in a terminal.
+/// That the editor has read the file in another encoding than that in which it is stored.
+fn misread(analysis: &Analysis, file: FileId, encoding: Encoding) -> Option<Diagnostic> {
+    let (stored, at) = analysis.misread.filter(|_| Some(file) == analysis.root)?;
+    let start = u32::try_from(at).ok()?;
+    let length = analysis.sources.file(file).text().get(at..)?.chars().next()?.len_utf8();
+    let span = Span { file, start, end: start + u32::try_from(length).ok()? };
+    Some(Diagnostic {
+        range: analysis.range(span, encoding),
+        severity: Some(DiagnosticSeverity::ERROR),
+        source: Some(SOURCE.to_owned()),
+        message: format!(
+            "the editor shows other characters than the file has\nnote: the file is stored as {stored}\nhelp: open it \
+             with the encoding {stored} before you save it; otherwise these characters are lost"
+        ),
+        ..Diagnostic::default()
+    })
+}
+
+/// What editors show as the origin of a message.
+const SOURCE: &str = "odgen";
+
+/// One message: its help and its notes are below it, as in a terminal.
 pub(super) fn translated(analysis: &Analysis, said: &diag::Diagnostic, encoding: Encoding) -> Diagnostic {
     let mut places = said.labels.iter();
     let first = places.next();
@@ -39,7 +61,7 @@ pub(super) fn translated(analysis: &Analysis, said: &diag::Diagnostic, encoding:
         severity: Some(severity(said.severity)),
         code: Some(NumberOrString::String(said.code.id.to_owned())),
         code_description: copies::explained(said.code).map(|href| CodeDescription { href }),
-        source: Some("odgen".to_owned()),
+        source: Some(SOURCE.to_owned()),
         message: message(said),
         related_information: (!related.is_empty()).then_some(related),
         tags: tag(said).map(|tag| vec![tag]),

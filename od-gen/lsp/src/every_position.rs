@@ -26,25 +26,25 @@ fn asked(name: &str, text: &str, every: usize) -> [usize; 4] {
         text: text.into(),
     });
     let snapshot = workspace.snapshot(&uri, Encoding::Utf16).unwrap();
-    let mut told = [0; 4];
+    let mut answers = [0; 4];
     for (line, written) in (0_u32..).zip(text.lines()).step_by(every) {
         let end = u32::try_from(written.encode_utf16().count()).unwrap();
         // A few places in each line, another one in each; between the halves of a character, too.
         for character in [0, line % 7 + 2, line % 23 + 5, end / 2, end, end + 3] {
             let at = Position { line, character };
-            told[0] += usize::from(hover(&snapshot, at).is_some());
-            told[1] += definition(&snapshot, at).len();
-            told[2] += references(&snapshot, at, true).len() + highlights(&snapshot, at).len();
+            answers[0] += usize::from(hover(&snapshot, at).is_some());
+            answers[1] += definition(&snapshot, at).len();
+            answers[2] += references(&snapshot, at, true).len() + highlights(&snapshot, at).len();
             let _ = prepare(&snapshot, at);
             // Each of these reads the whole text.
             if (line as usize).is_multiple_of(every * 8) {
-                told[3] += completion(&snapshot, at, Insertion::Snippet).len();
+                answers[3] += completion(&snapshot, at, &Insertion { snippets: true, next: None }).len();
             }
         }
     }
     let all = Range { start: Position::default(), end: Position { line: u32::MAX, character: 0 } };
     let _ = hints(&snapshot, all, &Hint::wanted(None));
-    told
+    answers
 }
 
 #[test]
@@ -55,8 +55,8 @@ fn every_position_has_an_answer() {
         let file = format!("{name}.od.yaml");
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../od-spec/devices");
         let text = std::fs::read_to_string(Path::new(folder).join(&file)).unwrap();
-        let told = asked(&file, &text, 31);
-        assert!(told[0] > 30 && told[1] > 0 && told[2] > 0, "{name}: {told:?}");
+        let answers = asked(&file, &text, 31);
+        assert!(answers[0] > 30 && answers[1] > 0 && answers[2] > 0, "{name}: {answers:?}");
         // Cut in the middle, and with something left open.
         let middle = text.char_indices().nth(text.chars().count() / 2).unwrap().0;
         asked(&file, &text[..middle], 211);

@@ -16,7 +16,7 @@ pub(super) fn ranges(snapshot: &Snapshot) -> Vec<FoldingRange> {
     }
 }
 
-/// Each line with the deeper lines behind it, and comments of several lines.
+/// Each line with the deeper lines after it, and comments of several lines.
 fn by_depth(lines: &[&str]) -> Vec<FoldingRange> {
     let mut ranges = comments(lines, '#');
     // Lines that are followed by deeper ones, with their depths.
@@ -33,7 +33,7 @@ fn by_depth(lines: &[&str]) -> Vec<FoldingRange> {
             continue;
         }
         let depth = line.len() - content.len();
-        // What closes a bracket stands as deep as the line that opened it, and is folded with it.
+        // What closes a bracket is as deep as the line that opened it, and is folded with it.
         if content.starts_with(['}', ']']) {
             close(&mut open, depth + 1, last);
             last = number;

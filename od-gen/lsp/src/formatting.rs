@@ -35,7 +35,7 @@ pub(super) fn range(snapshot: &Snapshot, range: Range) -> Vec<TextEdit> {
     if of_some.is_some() && of_some == of_all { edits(snapshot, some) } else { Vec::new() }
 }
 
-/// What changes in a text that becomes another, line by line: lines that differ in their blanks only are the same line.
+/// What changes in a text that becomes another, line by line: lines that differ only in spaces are the same line.
 pub(super) fn between(old: &str, new: &str) -> Vec<Change> {
     let old_lines: Vec<&str> = old.split_inclusive('\n').collect();
     let new_lines: Vec<&str> = new.split_inclusive('\n').collect();
@@ -77,7 +77,7 @@ fn borrowed(lines: &[String]) -> Vec<&str> {
     lines.iter().map(String::as_str).collect()
 }
 
-/// The changes between two lines that differ in their blanks only.
+/// The changes between two lines that differ only in spaces.
 fn of_blanks(start: usize, old: &str, new: &str) -> Vec<Change> {
     let mut changes = Vec::new();
     let (mut i, mut j) = (0, 0);

@@ -1,4 +1,5 @@
-//! What an editor shows between the letters: the raw value behind a physical one, where an entry lies in a PDO, the identifier of a PDO.
+//! What an editor shows between the characters: the raw value of a physical one, the place of an entry in a PDO, the CAN-ID of a PDO, the
+//! name of an entry in an EDS.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -11,22 +12,25 @@ use od_spec::yaml::Node;
 use serde_json::Value as Json;
 
 use super::analysis::{Analysis, Kind};
+use super::eds::{Referring, referring};
 use super::hover::{Words, fact_of, value_of};
 use super::snapshot::Snapshot;
 
 /// A kind of hint, which a client can do without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Hint {
-    /// The raw value behind a physical one.
+    /// The raw value of a physical one.
     RawValue,
     /// Byte and bit of an entry in a PDO.
     PdoPlace,
     /// The identifier of a PDO.
     CobId,
+    /// The name of the entry that a number means in an EDS.
+    EntryName,
 }
 
 impl Hint {
-    const ALL: [Hint; 3] = [Hint::RawValue, Hint::PdoPlace, Hint::CobId];
+    const ALL: [Hint; 4] = [Hint::RawValue, Hint::PdoPlace, Hint::CobId, Hint::EntryName];
 
     /// Its name in the options.
     const fn name(self) -> &'static str {
@@ -34,6 +38,7 @@ impl Hint {
             Hint::RawValue => "raw-values",
             Hint::PdoPlace => "pdo-places",
             Hint::CobId => "cob-ids",
+            Hint::EntryName => "entry-names",
         }
     }
 
@@ -49,15 +54,19 @@ impl Hint {
 
 /// The hints in a range of a document.
 pub(super) fn hints(snapshot: &Snapshot, range: Range, wanted: &BTreeSet<Hint>) -> Vec<InlayHint> {
-    let Some(good) = snapshot.good.as_ref().filter(|_| snapshot.now.kind == Kind::Specification) else {
-        return Vec::new();
-    };
-    let Some(system) = &good.system else { return Vec::new() };
+    let Some((good, system)) = snapshot.good.as_ref().zip(snapshot.system()) else { return Vec::new() };
     let mut hints = Vec::new();
-    if wanted.contains(&Hint::RawValue) {
+    match snapshot.now.kind {
+        Kind::Specification => {}
+        Kind::Eds if wanted.contains(&Hint::EntryName) => hints.extend(entry_names(snapshot, system)),
+        Kind::Eds | Kind::Xdd | Kind::Plant | Kind::Parameters | Kind::Foreign => {}
+    }
+    if snapshot.now.kind == Kind::Specification && wanted.contains(&Hint::RawValue) {
         hints.extend(raw_values(snapshot, good, system));
     }
-    hints.extend(of_pdos(snapshot, system, wanted));
+    if snapshot.now.kind == Kind::Specification {
+        hints.extend(of_pdos(snapshot, system, wanted));
+    }
     hints.retain(|hint| range.start <= hint.position && hint.position <= range.end);
     hints.sort_by_key(|hint| hint.position);
     hints
@@ -76,9 +85,22 @@ fn hint(position: Position, label: String, about: &str) -> InlayHint {
     }
 }
 
-/// The raw values behind values that are written with a unit.
+/// The names of the entries that values of an EDS mean.
+fn entry_names(snapshot: &Snapshot, system: &System) -> Vec<InlayHint> {
+    let Some(device) = system.devices.first() else { return Vec::new() };
+    let named = |referring: Referring| {
+        let object = device.objects.get(&referring.id.index)?;
+        let entry = device.entry_name(referring.id);
+        // A list names whole objects.
+        let name = if referring.id.sub.0 == 0 { object.name.clone() } else { entry? };
+        Some(hint(snapshot.range(referring.value).end, name, "name of the entry"))
+    };
+    referring(snapshot.file, snapshot.text()).into_iter().filter_map(named).collect()
+}
+
+/// The raw values of values that are written with a unit.
 fn raw_values(snapshot: &Snapshot, good: &Arc<Analysis>, system: &System) -> Vec<InlayHint> {
-    // Where one text stands for several raw values, none is the right one.
+    // If one text means several raw values, none of them is shown.
     let mut seen: BTreeMap<Span, Option<i128>> = BTreeMap::new();
     let file = snapshot.now.place(snapshot.file);
     for device in &system.devices {
@@ -90,9 +112,12 @@ fn raw_values(snapshot: &Snapshot, good: &Arc<Analysis>, system: &System) -> Vec
                 }
                 let Some(Value::Integer(raw)) = value_of(entry, fact) else { continue };
                 let written = good.sources.text(stated.span).trim_matches(['"', '\'']);
-                // What is a number as it stands is the raw value itself, and lists have several.
+                // A plain number is the raw value itself, and lists have several.
                 let is_one = !written.starts_with(['[', '{', '*']) && !written.contains('\n');
-                if is_one && written.contains(' ') && scalar::integer(written).is_err() {
+                // A step of 1 gives the number that is written.
+                let number = written.split(' ').next().and_then(|number| scalar::integer(number).ok());
+                let is_new = number != Some(raw);
+                if is_one && is_new && written.contains(' ') && scalar::integer(written).is_err() {
                     let raw = Some(raw);
                     let known = seen.entry(stated.span).or_insert(raw);
                     *known = raw.filter(|_| *known == raw);
@@ -118,7 +143,9 @@ fn of_pdos(snapshot: &Snapshot, system: &System, wanted: &BTreeSet<Hint>) -> Vec
         for direction in [Direction::Receive, Direction::Transmit] {
             for (key, node) in node.get(direction.word()).map(Node::entries).unwrap_or_default() {
                 let Some(pdo) = pdo_of(device.pdos_of(direction), key) else { continue };
-                if let Some(cob_id) = pdo.cob_id.as_ref().filter(|_| wanted.contains(&Hint::CobId)) {
+                let is_written = node.get("cob-id").is_some();
+                let is_shown = wanted.contains(&Hint::CobId) && !is_written;
+                if let Some(cob_id) = pdo.cob_id.as_ref().filter(|_| is_shown) {
                     let end = snapshot.range(key.span).end;
                     hints.push(hint(end, words.can_id(cob_id), "CAN-ID"));
                 }

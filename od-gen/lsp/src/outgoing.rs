@@ -1,4 +1,4 @@
-//! What the client is told, as the text that goes over the line: a large answer is written down once, and nothing else is made
+//! What is sent to the client, as the text that goes over the line: a large answer is written down once, and nothing else is made
 //! of it.
 
 use lsp_server::{ErrorCode, RequestId, ResponseError};
@@ -46,7 +46,7 @@ pub(super) fn request<M: Request>(id: RequestId, params: M::Params) -> serde_jso
     serde_json::to_string(&Call { jsonrpc: JSONRPC, id: Some(id), method: M::METHOD, params })
 }
 
-/// Something that the client is told without having asked.
+/// A message that the client did not ask for.
 pub(super) fn notification<M: Notification>(params: M::Params) -> serde_json::Result<String> {
     serde_json::to_string(&Call { jsonrpc: JSONRPC, id: None, method: M::METHOD, params })
 }

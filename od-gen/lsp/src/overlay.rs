@@ -46,7 +46,7 @@ impl Loader for Overlay<'_> {
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String> {
         let from = Path::new(from);
         if !from.is_absolute() {
-            return Err("a text without a file has none beside it; save it first".to_owned());
+            return Err("a text that was never saved has no folder; save it first".to_owned());
         }
         let place = Place::File(plain(&from.parent().unwrap_or(Path::new("")).join(path)));
         let bytes = bytes_of(&place, self.buffers);

@@ -1,4 +1,4 @@
-//! Where a document is: what URIs, paths and the names of sources stand for.
+//! Where a document is: what URIs, paths and the names of sources mean.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -62,6 +62,11 @@ impl Place {
             Place::Library(_) | Place::Elsewhere(_) => None,
         }
     }
+}
+
+/// The name of a source that another one names, relative to itself.
+pub(super) fn beside(from: &str, name: &str) -> String {
+    file_name::shown(Path::new(from).parent().unwrap_or(Path::new("")).join(name))
 }
 
 impl fmt::Display for Place {

@@ -39,7 +39,7 @@ impl Encoding {
         }
     }
 
-    /// The byte of a line at which so many units stand before; inside of a character, its beginning; behind the line, its end.
+    /// The byte of a line before which there are so many units; inside a character, its beginning; after the line, its end.
     fn byte(self, line: &str, units: usize) -> usize {
         let mut before = 0;
         for (at, c) in line.char_indices() {
@@ -74,7 +74,7 @@ impl Lines {
         Self { starts: std::iter::once(0).chain(bytes.iter().enumerate().filter_map(ends_line)).collect() }
     }
 
-    /// How many lines there are; behind a last line break there is one more, which is empty.
+    /// How many lines there are; after a last line break there is one more, which is empty.
     pub(super) const fn count(&self) -> usize {
         self.starts.len()
     }
@@ -102,7 +102,7 @@ impl Lines {
         Position { line: number(line), character: number(encoding.units(&content[..end])) }
     }
 
-    /// The byte at a position. A position behind the end of its line is at that end, as the protocol has it; one behind the
+    /// The byte at a position. A position after the end of its line is at that end, as the protocol has it; one after the
     /// last line at the end of the text.
     pub(super) fn offset(&self, text: &str, position: Position, encoding: Encoding) -> usize {
         let (start, content) = self.line(text, position.line as usize);
@@ -160,7 +160,7 @@ mod tests {
         assert_eq!(offset(2, u32::MAX, Encoding::Utf8), 17);
         assert_eq!(offset(4, 0, Encoding::Utf16), TEXT.len());
         assert_eq!(offset(u32::MAX, u32::MAX, Encoding::Utf16), TEXT.len());
-        // A byte of a line break, one inside of a character, and one behind the text.
+        // A byte of a line break, one inside a character, and one after the text.
         assert_eq!(lines.position(TEXT, 5, Encoding::Utf16), at(0, 3));
         assert_eq!(lines.position(TEXT, 8, Encoding::Utf16), at(1, 0));
         assert_eq!(lines.position(TEXT, usize::MAX, Encoding::Utf16), at(3, 0));

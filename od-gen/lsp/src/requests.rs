@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use lsp_server::{ErrorCode, Request, ResponseError};
 use lsp_types::request::{
-    CodeActionRequest, Completion, DocumentHighlightRequest, DocumentSymbolRequest, FoldingRangeRequest,
-    Formatting, GotoDefinition, HoverRequest, InlayHintRequest, PrepareRenameRequest, RangeFormatting,
-    References, Rename, Request as Method, WorkspaceSymbolRequest,
+    CodeActionRequest, CodeLensRequest, Completion, DocumentHighlightRequest, DocumentSymbolRequest,
+    FoldingRangeRequest, Formatting, GotoDefinition, HoverRequest, InlayHintRequest, PrepareRenameRequest,
+    RangeFormatting, References, Rename, Request as Method, WorkspaceSymbolRequest,
 };
 use lsp_types::{
     CompletionList, CompletionResponse, DocumentSymbolResponse, GotoDefinitionResponse, Position,
@@ -15,6 +15,7 @@ use lsp_types::{
 
 use super::completion::{self, Insertion};
 use super::inlay::Hint;
+use super::lens;
 use super::outgoing::{answer, refusal};
 use super::position::Encoding;
 use super::snapshot::Snapshot;
@@ -30,7 +31,9 @@ pub(super) struct Context<'a> {
     /// What positions are counted in.
     pub encoding: Encoding,
     /// How the client wants completions.
-    pub insertion: Insertion,
+    pub insertion: &'a Insertion,
+    /// The command of the client that shows places.
+    pub show_places: Option<&'a str>,
     /// The hints that the client wants.
     pub hints: &'a BTreeSet<Hint>,
 }
@@ -44,7 +47,7 @@ impl Context<'_> {
 
     /// What a request at a position of a document is answered from.
     fn at(&mut self, at: &TextDocumentPositionParams) -> Result<(Snapshot, Position), ResponseError> {
-        Ok((self.snapshot(&at.text_document.uri)?, at.position))
+        Ok((self.snapshot(&at.text_document.uri)?.about(at.position), at.position))
     }
 }
 
@@ -67,7 +70,7 @@ pub(super) fn answered(request: Request, context: &mut Context<'_>) -> String {
         Completion::METHOD => on::<Completion>(request, |params| {
             let (snapshot, position) = context.at(&params.text_document_position)?;
             let items = completion::completion(&snapshot, position, context.insertion);
-            // What is offered hangs on what has been written: an index or a name.
+            // What is offered depends on what has been written: an index or a name.
             Ok(Some(CompletionResponse::List(CompletionList { is_incomplete: true, items })))
         }),
         GotoDefinition::METHOD => on::<GotoDefinition>(request, |params| {
@@ -80,11 +83,16 @@ pub(super) fn answered(request: Request, context: &mut Context<'_>) -> String {
         }),
         Rename::METHOD => on::<Rename>(request, |params| {
             let (snapshot, position) = context.at(&params.text_document_position)?;
-            rename::rename(&snapshot, position, &params.new_name).map(Some).map_err(failed)
+            let renamed = rename::rename(&snapshot, position, &params.new_name, context.workspace);
+            renamed.map(Some).map_err(failed)
         }),
         InlayHintRequest::METHOD => on::<InlayHintRequest>(request, |params| {
             let snapshot = context.snapshot(&params.text_document.uri)?;
             Ok(Some(inlay::hints(&snapshot, params.range, context.hints)))
+        }),
+        CodeLensRequest::METHOD => on::<CodeLensRequest>(request, |params| {
+            let snapshot = context.snapshot(&params.text_document.uri)?;
+            Ok(Some(lens::lenses(&snapshot, context.show_places)))
         }),
         HoverRequest::METHOD => on::<HoverRequest>(request, |params| {
             let (snapshot, position) = context.at(&params.text_document_position_params)?;

@@ -55,6 +55,7 @@ pub fn serve(messages: &Receiver<Message>, answers: Sender<String>) -> Exit {
         phase: Phase::Strange,
         encoding: Encoding::default(),
         insertion: Insertion::default(),
+        show_places: None,
         hints: BTreeSet::new(),
         workspace: Workspace::default(),
         published: Published::default(),
@@ -63,7 +64,7 @@ pub fn serve(messages: &Receiver<Message>, answers: Sender<String>) -> Exit {
     };
     let mut waiting = VecDeque::new();
     loop {
-        // Everything that came: what is behind may cancel what is before, or change what it is about.
+        // Everything that came: a later message may cancel an earlier one, or change what it is about.
         waiting.extend(messages.try_iter());
         let message = match waiting.pop_front() {
             Some(message) => message,
@@ -89,9 +90,9 @@ pub fn serve(messages: &Receiver<Message>, answers: Sender<String>) -> Exit {
     }
 }
 
-/// Whether a request is cancelled by a message that came behind it.
-fn is_cancelled(id: &RequestId, behind: &VecDeque<Message>) -> bool {
-    behind.iter().any(|message| match message {
+/// Whether a request is cancelled by a later message.
+fn is_cancelled(id: &RequestId, later: &VecDeque<Message>) -> bool {
+    later.iter().any(|message| match message {
         Message::Notification(Notification { method, params }) if method == "$/cancelRequest" => {
             let cancelled = params.get("id").cloned().map(serde_json::from_value::<RequestId>);
             cancelled.is_some_and(|cancelled| cancelled.is_ok_and(|cancelled| cancelled == *id))
@@ -105,12 +106,13 @@ struct Server {
     phase: Phase,
     encoding: Encoding,
     insertion: Insertion,
+    show_places: Option<String>,
     hints: BTreeSet<Hint>,
     workspace: Workspace,
     published: Published,
     /// Whether something changed since diagnostics were published.
     is_news: bool,
-    /// Whether the client tells of files that change on the disk.
+    /// Whether the client reports files that change on the disk.
     client_watches: bool,
 }
 
@@ -154,12 +156,13 @@ impl Server {
                 let mut context = Context {
                     workspace: &mut self.workspace,
                     encoding: self.encoding,
-                    insertion: self.insertion,
+                    insertion: &self.insertion,
+                    show_places: self.show_places.as_deref(),
                     hints: &self.hints,
                 };
                 requests::answered(request, &mut context)
             }
-            Phase::Leaving => refused(ErrorCode::InvalidRequest, "expected `exit` behind `shutdown`"),
+            Phase::Leaving => refused(ErrorCode::InvalidRequest, "expected `exit` after `shutdown`"),
         };
         self.send(answer);
     }
@@ -170,13 +173,15 @@ impl Server {
         })?;
         self.encoding = capabilities::encoding(&client);
         self.insertion = capabilities::insertion(&client);
+        self.show_places = capabilities::option(&client, "showPlaces");
+        self.workspace.folders = capabilities::folders(&client);
         self.hints = Hint::wanted(client.initialization_options.as_ref());
         self.phase = Phase::Working;
         self.client_watches = capabilities::watches_files(&client);
         Ok(capabilities::answer(self.encoding))
     }
 
-    /// Asks the client to tell when a library or a part changes on the disk.
+    /// Asks the client to report when a library or a part changes on the disk.
     fn watch_files(&self) {
         let watcher = FileSystemWatcher {
             glob_pattern: GlobPattern::String("**/*.{yaml,eds,dcf}".to_owned()),
@@ -243,7 +248,7 @@ impl Server {
         }
     }
 
-    /// The parameters of a notification; what cannot be read is told in the client's log, as there is no answer.
+    /// The parameters of a notification; what cannot be read is reported in the client's log, because there is no answer.
     fn read<P: DeserializeOwned>(&self, method: &str, params: Value) -> Option<P> {
         match serde_json::from_value(params) {
             Ok(params) => Some(params),
@@ -258,7 +263,7 @@ impl Server {
         self.notify::<LogMessage>(LogMessageParams { typ: MessageType::ERROR, message });
     }
 
-    /// While nobody asks for anything: analyses one specification that has changed, and says what is new once nothing is stale.
+    /// While no request waits: analyses one specification that has changed, and reports what is new once nothing is stale.
     /// Whether there was something to do.
     fn look_at_one(&mut self) -> bool {
         if let Some(stale) = self.workspace.stale() {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// What lies between two texts: equal beginnings, equal ends, and what changed between them.
 ///
-/// While a text is edited it is often no specification for a moment. Places that stand before or behind what was typed
+/// While a text is edited it is often not a specification for a moment. Places before or after what was typed
 /// are the same in the last text that was one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shift {
@@ -32,12 +32,12 @@ impl Shift {
         Self { same_start: start, earlier_end: earlier.len() - same, now_end: now.len() - same }
     }
 
-    /// Where a byte of the text of now stood earlier; what is new stood at what it took the place of.
+    /// Where a byte of the present text was earlier; what is new was at what it replaced.
     pub(super) fn earlier(self, now: usize) -> usize {
         if now >= self.now_end { now - self.now_end + self.earlier_end } else { now.min(self.earlier_end) }
     }
 
-    /// What stands now in the place of a range of the earlier text.
+    /// What is now in the place of a range of the earlier text.
     pub(super) fn around(self, earlier: Range<usize>) -> (usize, usize) {
         let moved = |at: usize, changed: usize| {
             if at >= self.earlier_end { at - self.earlier_end + self.now_end } else { at.min(changed) }
@@ -45,7 +45,7 @@ impl Shift {
         (moved(earlier.start, self.same_start), moved(earlier.end, self.now_end))
     }
 
-    /// Where a range of the earlier text stands now; `None` if some of it changed.
+    /// Where a range of the earlier text is now; `None` if some of it changed.
     pub(super) fn now(self, earlier: Range<usize>) -> Option<Range<usize>> {
         if earlier.end <= self.same_start {
             Some(earlier)

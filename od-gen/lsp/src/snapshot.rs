@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lsp_types::{Location, Position, Range, Uri};
-use od_spec::model::System;
+use od_spec::model::{Dictionary, System};
+use od_spec::names::{Names, SettingOf};
 use od_spec::source::{FileId, Span};
 use od_spec::yaml::Node;
 
-use super::analysis::Analysis;
+use super::analysis::{Analysis, Described};
 use super::position::{Encoding, Lines};
 use super::shift::Shift;
 
@@ -32,6 +33,8 @@ pub(super) struct Snapshot {
     pub file: FileId,
     /// What positions are counted in.
     pub encoding: Encoding,
+    /// Which of the specifications that the document names is meant.
+    described: usize,
     /// What changed since in each file of `good`; two texts are compared once.
     shifts: RefCell<BTreeMap<FileId, Shift>>,
 }
@@ -44,7 +47,7 @@ impl Snapshot {
         file: FileId,
         encoding: Encoding,
     ) -> Self {
-        Self { now, good, file, encoding, shifts: RefCell::new(BTreeMap::new()) }
+        Self { now, good, file, encoding, described: 0, shifts: RefCell::new(BTreeMap::new()) }
     }
 
     /// The text of the document.
@@ -67,12 +70,47 @@ impl Snapshot {
         self.now.tree(self.file)
     }
 
-    /// The last model that was right.
-    pub(super) fn system(&self) -> Option<&System> {
-        self.good.as_ref()?.system.as_ref()
+    /// The same, about the specification that the place at a position of a parameter file or plant refers to.
+    pub(super) fn about(mut self, position: Position) -> Self {
+        let offset = u32::try_from(self.offset(position)).unwrap_or(u32::MAX);
+        let refers = |at: &usize| self.now.names_of(*at).at(self.file, offset).is_some();
+        self.described = (0..self.now.described.len()).find(refers).unwrap_or(0);
+        self
     }
 
-    /// The syntax tree of the document; while it is no YAML, that of the last text that gave a model.
+    /// What the specification defines, and what refers to it.
+    pub(super) fn names(&self) -> &Names {
+        self.now.names_of(self.described)
+    }
+
+    /// The file that describes the devices.
+    pub(super) fn root(&self) -> Option<FileId> {
+        self.now.described.get(self.described).map(|one| one.root).or(self.now.root)
+    }
+
+    /// The last model without errors.
+    pub(super) fn system(&self) -> Option<&System> {
+        let good = self.good.as_ref()?;
+        let place = self.now.described.get(self.described).and_then(|one| self.now.place(one.root));
+        let is_same = |one: &&Described| good.place(one.root) == place;
+        let one = good.described.iter().find(is_same).or_else(|| good.described.first())?;
+        one.system.as_deref()
+    }
+
+    /// The device of a setting, with the model that it is of.
+    pub(super) fn device_of(&self, setting: &SettingOf<'_>) -> Option<(&System, &Dictionary)> {
+        self.device_called(setting.device)
+    }
+
+    /// The device that a parameter file or plant calls so, with the model that it is of.
+    pub(super) fn device_called(&self, key: &str) -> Option<(&System, &Dictionary)> {
+        self.good.as_ref()?.described.iter().find_map(|one| {
+            let system = one.system.as_deref()?;
+            Some((system, system.device(one.devices.get(key)?)?))
+        })
+    }
+
+    /// The syntax tree of the document; while it is not YAML, that of the last text that gave a model.
     pub(super) fn last_tree(&self) -> Option<Tree<'_>> {
         if let Some(root) = self.tree() {
             return Some(Tree { root, snapshot: self, shift: None });
@@ -105,7 +143,7 @@ impl Snapshot {
         Some(Location { uri, range: analysis.range(span, self.encoding) })
     }
 
-    /// The document in the last analysis that gave a model, and where a byte of its text of now stood there.
+    /// The document in the last analysis that gave a model, and where a byte of its present text was in that one.
     pub(super) fn earlier(&self, offset: usize) -> Option<(&Arc<Analysis>, FileId, usize)> {
         let good = self.good.as_ref()?;
         let file = good.file(self.now.place(self.file)?)?;
@@ -120,7 +158,7 @@ impl Snapshot {
     }
 
     /// Where a span of an earlier analysis is in the texts of now.
-    fn span_now(&self, earlier: &Analysis, span: Span) -> Option<Span> {
+    pub(super) fn span_now(&self, earlier: &Analysis, span: Span) -> Option<Span> {
         let file = self.now.file(earlier.place(span.file)?)?;
         let shift = self.shift(earlier, span.file, file);
         let range = shift.now(span.start as usize..span.end as usize)?;
@@ -139,7 +177,7 @@ pub(super) struct Tree<'a> {
 }
 
 impl Tree<'_> {
-    /// Where a place of the tree is in the text of now; of what changed, what stands there now.
+    /// Where a place of the tree is in the text of now; of what changed, what is there now.
     pub(super) fn range(&self, span: Span) -> Range {
         let Some(shift) = self.shift else { return self.snapshot.range(span) };
         let (start, end) = shift.around(span.start as usize..span.end as usize);

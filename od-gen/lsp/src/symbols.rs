@@ -2,7 +2,7 @@
 
 use lsp_types::{DocumentSymbol, Range, SymbolKind};
 use od_spec::eds::{Document, SectionRef};
-use od_spec::model::Index;
+use od_spec::model::{Entry, Index, Object, ObjectKind};
 use od_spec::scalar;
 use od_spec::source::{Span, Spanned};
 use od_spec::yaml::{Node, NodeKind};
@@ -10,14 +10,15 @@ use od_spec::yaml::{Node, NodeKind};
 use super::analysis::Kind;
 use super::snapshot::{Snapshot, Tree};
 
-/// The symbols of a document. Of a text that is no YAML at the moment, those of the last one that was, where they stand now.
+/// The symbols of a document. Of a text that is not YAML at the moment, those of the last one that was, where they are now.
 pub(super) fn symbols(snapshot: &Snapshot) -> Vec<DocumentSymbol> {
     match snapshot.now.kind {
         Kind::Eds => of_eds(snapshot),
         Kind::Specification | Kind::Plant | Kind::Parameters => {
             snapshot.last_tree().map(|tree| Walk { snapshot, tree }.sections()).unwrap_or_default()
         }
-        Kind::Xdd | Kind::Foreign => Vec::new(),
+        Kind::Xdd => of_xdd(snapshot),
+        Kind::Foreign => Vec::new(),
     }
 }
 
@@ -169,7 +170,7 @@ impl Walk<'_> {
     }
 }
 
-/// A symbol; the protocol wants names that are no empty texts.
+/// A symbol; the protocol does not allow an empty name.
 fn symbol(
     (range, selection_range): (Range, Range),
     label: String,
@@ -206,6 +207,39 @@ fn scalar_text(node: &Node) -> Option<String> {
 fn facts(node: &Node) -> Option<String> {
     let facts: Vec<String> = ["type", "unit", "access"].iter().filter_map(|key| text(node, key)).collect();
     (!facts.is_empty()).then(|| facts.join(", "))
+}
+
+/// The objects of an XDD by the last model without errors, with their entries.
+fn of_xdd(snapshot: &Snapshot) -> Vec<DocumentSymbol> {
+    let Some((good, system)) = snapshot.good.as_ref().zip(snapshot.system()) else { return Vec::new() };
+    let made = |span: Span, label: String, kind, detail, children| {
+        let range = snapshot.range(snapshot.span_now(good, span)?);
+        Some(symbol((range, range), label, kind, detail, children))
+    };
+    let objects = system.devices.iter().flat_map(|device| device.objects.values());
+    let object = |object: &Object| {
+        let entries = object.entries.iter().filter(|_| object.is_structured());
+        let entry = |entry: &Entry| {
+            let label = format!("{} {}", entry.sub, entry.name);
+            made(entry.span, label, SymbolKind::FIELD, Some(entry.data_type.to_string()), Vec::new())
+        };
+        let children: Vec<DocumentSymbol> = entries.filter_map(entry).collect();
+        let kind = match object.kind {
+            ObjectKind::Record => SymbolKind::STRUCT,
+            ObjectKind::Array => SymbolKind::ARRAY,
+            ObjectKind::Var | ObjectKind::Domain => SymbolKind::VARIABLE,
+        };
+        let detail = Some(object.kind.name().to_owned());
+        let mut all =
+            made(object.span, format!("{} {}", object.index, object.name), kind, detail, Vec::new())?;
+        // An outline wants what is inside of something to lie within it.
+        if let Some(last) = children.last() {
+            all.range.end = all.range.end.max(last.range.end);
+            all.children = Some(children);
+        }
+        Some(all)
+    };
+    objects.filter_map(object).collect()
 }
 
 /// The sections of an EDS; those of sub-indices below their object.

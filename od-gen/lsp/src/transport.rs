@@ -1,6 +1,6 @@
 //! Messages on standard input and output.
 //!
-//! The frames are read here and not by the library of the protocol: that ends with the first message that is no JSON, and asks
+//! The frames are read here and not by the library of the protocol: that ends with the first message that is not JSON, and asks
 //! for as much memory as a length says.
 
 use std::io::{self, BufRead, Read as _, Write};
@@ -11,7 +11,7 @@ use std::thread::{self, JoinHandle};
 use lsp_server::{ErrorCode, Message};
 use serde_json::{Value, json};
 
-/// Longest message that is read: a document of the largest size, each byte of which stands as an escape.
+/// Longest message that is read: a document of the largest size, each byte of which is written as an escape.
 const LONGEST: u64 = (64 << 20) * 6;
 /// Longest line of a header.
 const LONGEST_HEADER: u64 = 4096;
@@ -35,7 +35,7 @@ impl Broken {
 pub(super) struct Stdio {
     /// What the client says.
     pub messages: Receiver<Message>,
-    /// What it is told.
+    /// What it receives.
     pub answers: Sender<String>,
     /// What was wrong with the input.
     pub broken: Broken,
@@ -67,7 +67,7 @@ pub(super) fn stdio() -> Stdio {
                     }
                 }
                 Ok(Frame::End) => break,
-                // After something that is no frame, the next one cannot be found.
+                // After something that is not a frame, the next one cannot be found.
                 Err(error) => {
                     noted.set(error);
                     break;
@@ -83,7 +83,7 @@ pub(super) fn finished(writer: JoinHandle<io::Result<()>>) -> io::Result<()> {
     writer.join().unwrap_or_else(|_| Err(io::Error::other("the thread that writes has failed")))
 }
 
-/// What stood in a frame.
+/// The content of a frame.
 #[derive(Debug)]
 enum Frame {
     /// A message.
@@ -111,20 +111,22 @@ fn read(input: &mut impl BufRead) -> io::Result<Frame> {
     let value: Value = match serde_json::from_slice(&bytes) {
         Ok(value) => value,
         Err(error) => {
-            return Ok(refused(ErrorCode::ParseError, &Value::Null, format!("this is no JSON: {error}")));
+            return Ok(refused(ErrorCode::ParseError, &Value::Null, format!("this is not JSON: {error}")));
         }
     };
     let id = value.get("id").cloned().unwrap_or_default();
     let is_request = value.get("method").is_some() && !id.is_null();
     Ok(match serde_json::from_value(value) {
-        // A request whose number is none of those that there can be looks like a notification.
+        // A request with an impossible number looks like a notification.
         Ok(Message::Notification(_)) if is_request => {
             refused(ErrorCode::InvalidRequest, &id, "expected a number or a text as `id`".to_owned())
         }
         Ok(message) => Frame::Message(Box::new(message)),
-        Err(_) => {
-            refused(ErrorCode::InvalidRequest, &id, "this is no request, response or notification".to_owned())
-        }
+        Err(_) => refused(
+            ErrorCode::InvalidRequest,
+            &id,
+            "this is not a request, a response or a notification".to_owned(),
+        ),
     })
 }
 

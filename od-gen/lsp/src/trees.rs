@@ -12,7 +12,7 @@ use od_spec::yaml::{Node, parse};
 #[derive(Debug, Default)]
 pub(super) struct Trees(Mutex<BTreeMap<FileId, Read>>);
 
-/// A text with its tree, `None` of what is no YAML, and what was said about it.
+/// A text with its tree, `None` if it is not YAML, and the messages about it.
 #[derive(Debug)]
 struct Read {
     text: String,

@@ -1,12 +1,11 @@
-//! The parts and libraries of a text that is no YAML at the moment: compiling stops before it reads them, but their names are
+//! The parts and libraries of a text that is not YAML at the moment: compiling stops before it reads them, but their names are
 //! wanted all the same.
 
-use std::path::Path;
-
-use od_spec::file_name;
 use od_spec::source::{FileId, SourceMap};
 use od_spec::yaml::{self, Node};
 use od_spec::{LIBRARIES, Loader, read_text};
+
+use super::place::beside;
 
 /// Adds the files that a text names. What cannot be read is left out; it will be reported once the text can be compiled.
 pub(super) fn add(sources: &mut SourceMap, root: FileId, loader: &mut dyn Loader) {
@@ -17,10 +16,9 @@ pub(super) fn add(sources: &mut SourceMap, root: FileId, loader: &mut dyn Loader
         items.iter().filter_map(|item| Some(item.text()?.value.to_owned())).collect()
     };
     let mut load = |name: &str| read_text(name, loader.load(name, &from).ok()?).ok();
-    let beside = |name: &str| file_name::shown(Path::new(&from).parent().unwrap_or(Path::new("")).join(name));
     for part in names("parts") {
         if let Some(text) = load(&part) {
-            sources.add_part(beside(&part), text, root);
+            sources.add_part(beside(&from, &part), text, root);
         }
     }
     for library in names("uses") {
@@ -30,7 +28,7 @@ pub(super) fn add(sources: &mut SourceMap, root: FileId, loader: &mut dyn Loader
             }
             None => {
                 if let Some(text) = load(&library) {
-                    sources.add(beside(&library), text);
+                    sources.add(beside(&from, &library), text);
                 }
             }
         }

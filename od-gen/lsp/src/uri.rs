@@ -15,7 +15,7 @@ pub(super) fn path_of(uri: &str) -> Option<PathBuf> {
     Some(PathBuf::from(if has_drive { &path[1..] } else { path.as_str() }))
 }
 
-/// A text with the characters that `%41` and the like stand for.
+/// A text with the characters that `%41` and the like mean.
 fn decoded(text: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.bytes();

@@ -1,9 +1,13 @@
 //! What is open, and the specifications that it belongs to.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use lsp_types::{TextDocumentContentChangeEvent, TextDocumentItem, Uri};
+use od_gen::source::read_file;
+use od_spec::eds::is_eds;
+use od_spec::xdd::is_xdd;
 
 use super::analysis::Analysis;
 use super::buffer::Buffer;
@@ -11,18 +15,26 @@ use super::copies;
 use super::overlay::{Buffers, whole};
 use super::place::Place;
 use super::position::Encoding;
+use super::satellites;
 use super::snapshot::Snapshot;
 use super::trees::Trees;
 use super::uri::uri_of;
 
 /// What is open, and the specifications that it belongs to.
 ///
-/// A specification is analysed as long as one of its files is open: a part stands for the specification that it says it is a
-/// part of. What is stale is analysed anew when somebody asks for it.
+/// A specification is analysed as long as one of its files is open: a part keeps the specification that it names as its
+/// own. What is stale is analysed again when a request needs it.
 #[derive(Debug, Default)]
 pub(super) struct Workspace {
     buffers: Buffers,
     projects: BTreeMap<Place, Project>,
+    /// The folders that the editor shows.
+    pub folders: Vec<PathBuf>,
+}
+
+/// Whether a file may be stored in an encoding other than UTF-8.
+fn is_stored_somehow(name: &str, text: &str) -> bool {
+    is_eds(name, text) || is_xdd(name, text)
 }
 
 /// A specification of which a file is open.
@@ -44,7 +56,13 @@ impl Workspace {
     /// A document is open in the editor from now on.
     pub(super) fn open(&mut self, document: TextDocumentItem) {
         let place = Place::of_uri(&document.uri);
-        let buffer = Buffer { uri: document.uri, version: document.version, text: document.text };
+        let mut buffer = Buffer::new(document.uri, document.version, document.text);
+        if let Place::File(path) = &place
+            && is_stored_somehow(&path.to_string_lossy(), &buffer.text)
+            && let Ok(bytes) = read_file(path)
+        {
+            buffer.compare(bytes);
+        }
         self.buffers.insert(place.clone(), buffer);
         self.changed(&place);
     }
@@ -109,7 +127,7 @@ impl Workspace {
         let buffers = &self.buffers;
         let members = project.members.iter();
         let now = Arc::new(Analysis::of(root, members, buffers, &project.trees, |place| uri(place, buffers)));
-        if now.system.is_some() {
+        if now.has_models() {
             project.good = Some(Arc::clone(&now));
         }
         project.asked.clone_from(&now.asked);
@@ -144,9 +162,46 @@ impl Workspace {
         roots.iter().filter_map(|root| self.analysed(root)).collect()
     }
 
+    /// The parameter files and plants that name a specification: those that are open, and those next to it or in a folder of
+    /// the editor.
+    pub(super) fn satellites(&mut self, root: &Place) -> Vec<Arc<Analysis>> {
+        let open = self.analyses();
+        let mut places: BTreeSet<Place> = BTreeSet::new();
+        for folder in self.folders.iter().map(PathBuf::as_path).chain(folder_of(root)) {
+            satellites::below(folder, &mut places);
+        }
+        for analysis in &open {
+            if let Some(place) = analysis.own_place() {
+                places.remove(place);
+            }
+        }
+        let buffers = &self.buffers;
+        let closed = places.iter().filter(|place| !buffers.contains_key(place)).map(|place| {
+            Arc::new(Analysis::of(place, [].iter(), buffers, &Arc::default(), |place| uri(place, buffers)))
+        });
+        open.iter().cloned().chain(closed).filter(|analysis| analysis.is_about_nodes_of(root)).collect()
+    }
+
+    /// The analysis of a document as it would be with other texts of some files.
+    pub(super) fn trial(&self, place: &Place, texts: &BTreeMap<Place, String>) -> Option<Analysis> {
+        let mut buffers = self.buffers.clone();
+        for (place, text) in texts {
+            buffers.insert(place.clone(), Buffer::new(uri(place, &self.buffers)?, 0, text.clone()));
+        }
+        Some(Analysis::of(place, [].iter(), &buffers, &Arc::default(), |place| uri(place, &self.buffers)))
+    }
+
     /// The version of an open document.
     pub(super) fn version(&self, place: &Place) -> Option<i32> {
         self.buffers.get(place).map(|buffer| buffer.version)
+    }
+}
+
+/// The folder of a file.
+fn folder_of(place: &Place) -> Option<&Path> {
+    match place {
+        Place::File(path) => path.parent(),
+        Place::Library(_) | Place::Elsewhere(_) => None,
     }
 }
 

@@ -14,7 +14,7 @@ use super::snapshot::Snapshot;
 enum Query {
     /// What has a number that begins so: four digits of the index, and the sub-index where one is given.
     Number { index: String, sub: Option<u8> },
-    /// What has a name with these letters, and everything for none.
+    /// What has these characters in its name; everything for an empty text.
     Name(String),
 }
 
@@ -70,8 +70,7 @@ pub(super) fn find(query: &str, snapshots: &[Snapshot]) -> Vec<WorkspaceSymbol> 
     let query = Query::of(query);
     let mut found = Vec::new();
     for snapshot in snapshots {
-        let Some((good, system)) =
-            snapshot.good.as_ref().and_then(|good| Some((good, good.system.as_ref()?)))
+        let Some((good, system)) = snapshot.good.as_ref().and_then(|good| Some((good, good.system()?)))
         else {
             continue;
         };

@@ -10,6 +10,7 @@ use crate::yaml::Node;
 /// A parameter file as it is written.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ParameterFileDecl {
+    pub spec: Option<Name>,
     pub device: Option<Name>,
     pub title: Option<Name>,
     pub about: Option<Name>,
@@ -27,6 +28,7 @@ pub(crate) struct ParameterFileDecl {
 pub(crate) fn parameter_file(root: &Node) -> ParameterFileDecl {
     let reader = reader(root);
     ParameterFileDecl {
+        spec: reader.text("spec"),
         device: reader.text("device"),
         title: reader.text("title"),
         about: words(reader, "about"),

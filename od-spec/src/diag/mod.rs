@@ -199,6 +199,15 @@ impl Diagnostic {
         self.help(format!("did you mean `{word}`?")).meant(word)
     }
 
+    /// Asks whether a word was meant at the primary place, or helps in another way if there is no such word.
+    #[must_use]
+    pub(crate) fn did_you_mean_or(self, word: Option<&str>, otherwise: impl FnOnce() -> String) -> Self {
+        match word {
+            Some(word) => self.did_you_mean(word),
+            None => self.help(otherwise()),
+        }
+    }
+
     /// Shows what to write at the primary place, as far as what was meant is clear.
     #[must_use]
     pub(crate) fn write(self, text: &str) -> Self {

@@ -47,6 +47,7 @@ pub(crate) fn ends_with(name: &str, extension: &str) -> bool {
     start.and_then(|start| name.get(start..)).is_some_and(|end| end.eq_ignore_ascii_case(extension))
 }
 
+pub use check::keys::keys_of_section;
 pub use dates::{date_text, time_text};
 pub use document::{Document, Section, SectionRef};
 pub use line::{Line, LineEnd, LineKind};

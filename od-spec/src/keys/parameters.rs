@@ -1,6 +1,6 @@
 //! The keys of a parameter file: what is settled for one node, beside the specification of its device.
 
-use super::shape::{Key, KeyKind, Keys, Shape, U32};
+use super::shape::{Key, KeyKind, Keys, NameOf, Shape, U32};
 use super::table::keys;
 
 /// The key that a parameter file begins with.
@@ -10,7 +10,8 @@ keys! {
     /// Top level of a parameter file.
     PARAMETER_FILE = "a parameter file" {
         "od-parameters" required: Shape::Version, "version of the language; `1`";
-        "device": Shape::Text, "key of the device in its specification; a command for another device reports an error", "pmc";
+        "spec": Shape::Text, "specification, EDS or DCF of the device, relative to this file: an editor checks the values with it and offers names from it", "pitch.od.yaml";
+        "device": Shape::NameOf(NameOf::Device), "key of the device in its specification; a command for another device reports an error", "pmc";
         "title": Shape::Text, "purpose of the values", "blade A";
         "about": Shape::Words, "more about it";
         "node": Shape::Integer(1, 127), "node-ID";

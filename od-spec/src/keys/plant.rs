@@ -1,6 +1,6 @@
 //! The keys of a plant file: the nodes of many machines, and what each of them is set to.
 
-use super::shape::{Key, KeyKind, Keys, Shape, U32};
+use super::shape::{Key, KeyKind, Keys, NameOf, Shape, U32};
 use super::table::keys;
 
 /// The key that a plant file begins with.
@@ -32,7 +32,7 @@ keys! {
     /// A device of a plant.
     PLANT_DEVICE = "a device of a plant" {
         "from" required: Shape::Text, "its specification, EDS or DCF, relative to this file", "pitch.od.yaml";
-        "device": Shape::Text, "its key in the specification, where it differs", "pmc";
+        "device": Shape::NameOf(NameOf::Device), "its key in the specification, where it differs", "pmc";
     }
 }
 

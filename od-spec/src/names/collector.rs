@@ -7,7 +7,7 @@ use super::known::{Known, Scope};
 use super::objects::Devices;
 use super::resolved::Resolved;
 use super::walk::{Step, devices_of};
-use super::{By, DefinitionId, Kind, Reference};
+use super::{By, DefinitionId, DeviceKeys, Kind, Reference};
 use crate::decode::inside;
 use crate::expr::PLACEHOLDER;
 use crate::keys::Keys;
@@ -60,14 +60,21 @@ pub(super) struct Collector<'a, 't> {
     sources: &'a SourceMap,
     pub(super) known: &'a Known<'t>,
     pub(super) resolved: &'a Resolved<'a>,
+    /// What parameter files and plants call the devices.
+    pub(super) devices: &'a DeviceKeys,
     found: Vec<Reference>,
     /// Scalars that an alias shows a second time.
     seen: BTreeSet<Span>,
 }
 
 impl<'a, 't> Collector<'a, 't> {
-    pub(super) fn new(sources: &'a SourceMap, known: &'a Known<'t>, resolved: &'a Resolved<'a>) -> Self {
-        Self { sources, known, resolved, found: Vec::new(), seen: BTreeSet::new() }
+    pub(super) fn new(
+        sources: &'a SourceMap,
+        known: &'a Known<'t>,
+        resolved: &'a Resolved<'a>,
+        devices: &'a DeviceKeys,
+    ) -> Self {
+        Self { sources, known, resolved, devices, found: Vec::new(), seen: BTreeSet::new() }
     }
 
     /// How many references there are by now.

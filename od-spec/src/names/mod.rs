@@ -13,6 +13,7 @@ mod objects;
 mod place;
 mod references;
 mod resolved;
+mod settings;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -24,6 +25,7 @@ use crate::source::{FileId, SourceMap, Span};
 use crate::yaml::Node;
 
 pub use place::{Place, Spot};
+pub use settings::{DeviceKeys, SettingOf};
 pub use walk::Step;
 
 /// What something is that has a name or a number.
@@ -198,10 +200,25 @@ impl Names {
         tree: impl Fn(FileId) -> Option<&'t Node>,
         system: Option<&System>,
     ) -> Self {
+        Self::with_settings(sources, root, tree, system, &DeviceKeys::new())
+    }
+
+    /// The same, with what a parameter file or a plant among the sources refers to; `devices` is what that calls the devices of
+    /// the specification.
+    pub fn with_settings<'t>(
+        sources: &SourceMap,
+        root: FileId,
+        tree: impl Fn(FileId) -> Option<&'t Node>,
+        system: Option<&System>,
+        devices: &DeviceKeys,
+    ) -> Self {
         let trees: Vec<(FileId, &'t Node)> =
             sources.files().filter_map(|(file, _)| Some((file, tree(file)?))).collect();
-        let known = definitions::collect(sources, root, &trees);
-        let references = references::collect(sources, root, &trees, &known, system);
+        // A plant has keys of the same names, and defines nothing of a specification.
+        let is_specification = |(_, tree): &(FileId, &Node)| !walk::is_of_nodes(tree);
+        let described: Vec<_> = trees.iter().copied().filter(is_specification).collect();
+        let known = definitions::collect(sources, root, &described);
+        let references = references::collect(sources, root, &trees, &known, system, devices);
         let definitions = known.into_list();
         let mut places: Vec<(Span, DefinitionId)> = (0..)
             .zip(&definitions)

@@ -1,7 +1,8 @@
 //! What a byte of a text is a part of, by the table of keys.
 
-use super::walk::{Step, devices_of};
-use crate::keys::{KeyKind, Keys, PART, PART_OF, SPEC, Shape};
+use super::settings::SettingOf;
+use super::walk::{Step, devices_of, keys_of};
+use crate::keys::{KeyKind, Keys, Shape};
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
 
@@ -49,15 +50,19 @@ impl<'t> Place<'t> {
     /// What a byte of a text is a part of, including directly after the last one; `None` between keys and values, in
     /// comments and below what is not a key.
     pub fn of(root: &'t Node, offset: u32) -> Option<Self> {
-        let keys = if root.get(PART_OF).is_some() { &PART } else { &SPEC };
         let mut finder = Finder { offset, path: Vec::new() };
-        let spot = finder.map(root, keys)?;
+        let spot = finder.map(root, keys_of(root))?;
         Some(Self { path: finder.path, spot })
     }
 
     /// The keys of the devices that it speaks of; empty for all.
     pub fn devices(&self) -> Vec<&'t str> {
         devices_of(&self.path)
+    }
+
+    /// The setting of a parameter file or plant that it is in.
+    pub fn setting(&self) -> Option<SettingOf<'t>> {
+        SettingOf::around(&self.path)
     }
 
     /// The value of a key next to it.
@@ -112,6 +117,8 @@ impl<'t> Finder<'t> {
                 self.items(node, items, *item)
             }
             (Shape::Default, NodeKind::List(items)) => self.items(node, items, Shape::Default),
+            (Shape::Setting, NodeKind::Map(_)) => self.keyed(node, KeyKind::Name, Shape::Setting),
+            (Shape::Setting, NodeKind::List(items)) => self.items(node, items, Shape::Setting),
             (Shape::OneOrMore(item), _) => self.value(node, *item),
             _ => Some(Spot::Value { shape, node }),
         }

@@ -4,12 +4,13 @@ use super::collector::{At, Collector};
 use super::conditions;
 use super::known::{Known, Scope};
 use super::resolved::Resolved;
-use super::walk::{Role, Step, Visitor, walk};
-use super::{By, DefinitionId, Kind, Reference};
+use super::settings::{is_settings, is_unlock};
+use super::walk::{Role, Step, Visitor, keys_of, walk};
+use super::{By, DefinitionId, DeviceKeys, Kind, Reference};
 use crate::decode::lexical;
 use crate::eds::file_name;
 use crate::expr::Expr;
-use crate::keys::{COMMAND, KeyKind, NameOf, PART, PART_OF, SIGNAL, SPEC, Shape};
+use crate::keys::{COMMAND, KeyKind, NameOf, PART, SIGNAL, SPEC, Shape};
 use crate::model::{DataType, EntryId, SubIndex, System};
 use crate::source::{FileId, SourceMap, Spanned};
 use crate::yaml::Node;
@@ -21,12 +22,14 @@ pub(super) fn collect<'t>(
     trees: &[(FileId, &'t Node)],
     known: &Known<'t>,
     system: Option<&System>,
+    devices: &DeviceKeys,
 ) -> Vec<Reference> {
     let resolved = Resolved::of(system);
-    let mut all = Collector::new(sources, known, &resolved);
+    let mut all = Collector::new(sources, known, &resolved, devices);
     for (file, tree) in trees {
-        let is_part = file.is_one_with(root) && tree.get(PART_OF).is_some();
-        walk(tree, if is_part { &PART } else { &SPEC }, &mut all);
+        let keys = keys_of(tree);
+        // What calls itself a part, and is none, was reported.
+        walk(tree, if keys.name == PART.name && !file.is_one_with(root) { &SPEC } else { keys }, &mut all);
     }
     let mut found = all.into_found();
     found.sort_by_key(|one| (one.span, one.range.start));
@@ -38,6 +41,8 @@ impl<'t> Visitor<'t> for Collector<'_, 't> {
         let at = At { text, path };
         match role {
             Role::Key(KeyKind::Device) => self.device(at),
+            Role::Key(KeyKind::DeviceKey) => self.device_of_plant(at),
+            Role::Key(KeyKind::Name) if is_settings(path) => self.setting_key(at),
             Role::FeatureKey | Role::Value(Shape::Feature) => self.feature(at),
             Role::DefaultKey if matches!(path, [.., Step::Item { .. }, Step::Data { .. }]) => self.value(at),
             Role::DefaultKey => self.device(at),
@@ -73,6 +78,8 @@ impl<'t> Collector<'_, 't> {
                 }
             }
             Shape::Value | Shape::Default => self.value(at),
+            Shape::Setting => self.setting_value(at),
+            Shape::Text if is_unlock(at.path) => self.setting_key(at),
             Shape::Integer(..)
                 if at
                     .maps()
@@ -172,7 +179,13 @@ impl<'t> Collector<'_, 't> {
 
     /// The name of a value or bit, where the type is a named one; a number names nothing.
     fn value(&mut self, at: At<'_, 't>) {
-        let Some(owner) = self.type_around(at) else { return };
+        if let Some(owner) = self.type_around(at) {
+            self.value_of(at, owner);
+        }
+    }
+
+    /// The name of a value or bit of a type.
+    pub(super) fn value_of(&mut self, at: At<'_, 't>, owner: DefinitionId) {
         let of = |kind| self.known.named(kind, Scope::In(owner), at.text.value, at.file());
         // `{mode: homing}`: a value of a run of bits.
         let run = match at.path {

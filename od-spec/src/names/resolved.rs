@@ -54,6 +54,11 @@ impl<'a> Resolved<'a> {
         (span.file == place.file && place.end <= span.end).then_some(*name)
     }
 
+    /// A device by its key.
+    pub(super) fn device(&self, key: &str) -> Option<&'a Dictionary> {
+        self.devices.iter().map(|(device, _)| *device).find(|device| device.key == key)
+    }
+
     /// The devices.
     pub(super) fn devices<'s>(
         &'s self,

@@ -1,6 +1,8 @@
 //! Every scalar of a syntax tree, with the keys that lead to it.
 
-use crate::keys::{Key, KeyKind, Keys, Shape};
+use crate::keys::{
+    Key, KeyKind, Keys, PARAMETER_FILE, PARAMETERS_VERSION, PART, PART_OF, PLANT, PLANT_VERSION, SPEC, Shape,
+};
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
 
@@ -34,6 +36,17 @@ pub enum Step<'t> {
         /// Its number, from 0.
         at: usize,
     },
+}
+
+/// The keys that a file may have at its top level.
+pub(super) fn keys_of(root: &Node) -> &'static Keys {
+    let kinds = [(PART_OF, &PART), (PARAMETERS_VERSION, &PARAMETER_FILE), (PLANT_VERSION, &PLANT)];
+    kinds.into_iter().find(|(key, _)| root.get(key).is_some()).map_or(&SPEC, |(_, keys)| keys)
+}
+
+/// Whether a file is about nodes: a parameter file or a plant.
+pub(super) fn is_of_nodes(root: &Node) -> bool {
+    [PARAMETERS_VERSION, PLANT_VERSION].into_iter().any(|key| root.get(key).is_some())
 }
 
 /// The keys of the devices that a place speaks of, by the keys that lead there; empty for all.
@@ -114,6 +127,10 @@ impl<'t> Walk<'t, '_> {
                 self.items(node, items, *item);
             }
             (Shape::Default, NodeKind::List(items)) => self.items(node, items, Shape::Default),
+            (Shape::Setting, NodeKind::Map(_)) => {
+                self.keyed(node, KeyKind::Name, Role::Key(KeyKind::Name), Shape::Setting);
+            }
+            (Shape::Setting, NodeKind::List(items)) => self.items(node, items, Shape::Setting),
             (Shape::OneOrMore(item), _) => self.value(node, *item),
             (_, NodeKind::Scalar { .. }) => {
                 if let Some(text) = node.text() {

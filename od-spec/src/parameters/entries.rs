@@ -42,20 +42,16 @@ impl<'a> Entries<'a> {
         let text = name.value.as_str();
         let id = self.lookup.find(text, suggestions).map_err(|why| match why {
             NotFound::Unknown { nearest } => {
-                let help = nearest.map_or_else(
-                    || {
-                        "write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`"
-                            .to_owned()
-                    },
-                    |word| format!("did you mean `{word}`?"),
-                );
-                unknown(name, format!("`{}` has no entry `{}`", device.key, shorten(text)), help)
+                let otherwise =
+                    "write an index in hexadecimal (`607D.2`), an object's name, or `object.entry`";
+                let message = format!("`{}` has no entry `{}`", device.key, shorten(text));
+                unknown(name, message, nearest.as_deref(), || otherwise.to_owned())
             }
             NotFound::Several(namesakes) => Box::new(resolve::ambiguous(text, &namesakes, name.span)),
             NotFound::Ambiguous { decimal, hexadecimal } => ambiguous(name, decimal, hexadecimal),
         })?;
         let Some(entry) = device.entry(id) else {
-            return Err(unknown(name, format!("there is no entry {id}"), "correct it".to_owned()));
+            return Err(unknown(name, format!("there is no entry {id}"), None, || "correct it".to_owned()));
         };
         let is_whole = id.sub == SubIndex(0) && self.lookup.object(text) == Some(id.index);
         match device.objects.get(&id.index).filter(|object| is_whole && object.is_structured()) {
@@ -74,11 +70,9 @@ impl<'a> Entries<'a> {
                 return Box::new(resolve::ambiguous(text, &namesakes, name.span));
             }
             let names = self.device.objects.values().map(|object| object.name.as_str());
-            let help = suggestions.nearest(text, names).map_or_else(
-                || "write an index in hexadecimal (`607D`), or an object's name".to_owned(),
-                |word| format!("did you mean `{word}`?"),
-            );
-            unknown(name, format!("`{}` has no object `{}`", self.device.key, shorten(text)), help)
+            let otherwise = || "write an index in hexadecimal (`607D`), or an object's name".to_owned();
+            let message = format!("`{}` has no object `{}`", self.device.key, shorten(text));
+            unknown(name, message, suggestions.nearest(text, names), otherwise)
         })
     }
 }
@@ -112,19 +106,22 @@ fn member<'a>(object: &'a Object, name: &Name, suggestions: &mut Suggestions) ->
     }
     let message = format!("{} ({}) has no entry `{}`", object.index, object.name, shorten(text));
     if !object.is_structured() {
-        let help = format!("it has one value: write `{}: VALUE`", shorten(&object.name));
-        return Err(unknown(name, message, help));
+        let help = || format!("it has one value: write `{}: VALUE`", shorten(&object.name));
+        return Err(unknown(name, message, None, help));
     }
     let names = object.counted().map(|entry| entry.name.as_str());
-    let help = suggestions.nearest(text, names).map_or_else(
-        || format!("write a sub-index, 1 to {}, or the name of an entry", object.highest()),
-        |word| format!("did you mean `{word}`?"),
-    );
-    Err(unknown(name, message, help))
+    let otherwise = || format!("write a sub-index, 1 to {}, or the name of an entry", object.highest());
+    Err(unknown(name, message, suggestions.nearest(text, names), otherwise))
 }
 
-fn unknown(name: &Name, message: String, help: String) -> Box<Diagnostic> {
-    Box::new(Diagnostic::new(codes::UNKNOWN_ENTRY, name.span, message).help(help))
+fn unknown(
+    name: &Name,
+    message: String,
+    word: Option<&str>,
+    otherwise: impl FnOnce() -> String,
+) -> Box<Diagnostic> {
+    let diagnostic = Diagnostic::new(codes::UNKNOWN_ENTRY, name.span, message);
+    Box::new(diagnostic.did_you_mean_or(word, otherwise))
 }
 
 fn ambiguous(name: &Name, decimal: EntryId, hexadecimal: EntryId) -> Box<Diagnostic> {

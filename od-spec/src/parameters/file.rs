@@ -15,6 +15,8 @@ use crate::yaml::{self, Document, Node};
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct ParameterFile {
+    /// The file that describes the device, relative to this one.
+    pub spec: Option<Name>,
     /// Key of the device that it is for.
     pub device: Option<Name>,
     /// What the values are for.
@@ -82,6 +84,7 @@ pub fn parameter_file(
     decode::check(&tree, &PARAMETER_FILE, diagnostics);
     let decl = decode::parameter_file(&tree);
     Some(ParameterFile {
+        spec: decl.spec,
         device: decl.device,
         title: decl.title,
         about: decl.about,
@@ -149,14 +152,11 @@ impl ParameterFile {
                 .help("name the parameter file of this device, or correct `--device`")
         } else {
             let message = format!("there is no device `{}`", shorten(&named.value));
-            let help = match diagnostics.suggestions.nearest(&named.value, keys.clone()) {
-                Some(word) => format!("did you mean `{word}`?"),
-                None => {
-                    let keys: Vec<String> = keys.map(|key| format!("`{key}`")).collect();
-                    format!("the devices are {}", keys.join(", "))
-                }
-            };
-            Diagnostic::new(codes::UNKNOWN_DEVICE, named.span, message).help(help)
+            let word = diagnostics.suggestions.nearest(&named.value, keys.clone());
+            Diagnostic::new(codes::UNKNOWN_DEVICE, named.span, message).did_you_mean_or(word, || {
+                let keys: Vec<String> = keys.map(|key| format!("`{key}`")).collect();
+                format!("the devices are {}", keys.join(", "))
+            })
         };
         diagnostics.push(diagnostic);
     }

@@ -78,8 +78,8 @@ impl<'a> Names<'a> {
         if found.is_none() {
             let known = self.decl.types.iter().map(|one| one.name.value.as_str());
             let message = format!("the plant has no type `{}`", shorten(&name.value));
-            let help = help(&name.value, known, "its types are", diagnostics);
-            diagnostics.push(Diagnostic::new(codes::UNKNOWN_IN_PLANT, name.span, message).help(help));
+            let diagnostic = Diagnostic::new(codes::UNKNOWN_IN_PLANT, name.span, message);
+            report(diagnostic, &name.value, known, "its types are", diagnostics);
         }
         found
     }
@@ -90,8 +90,8 @@ impl<'a> Names<'a> {
         // A key that is not one is already reported.
         if !is_known && is_device_key(&name.value) {
             let message = format!("the plant has no device `{}`", shorten(&name.value));
-            let help = help(&name.value, self.devices.iter().copied(), "its devices are", diagnostics);
-            diagnostics.push(Diagnostic::new(codes::UNKNOWN_DEVICE, name.span, message).help(help));
+            let diagnostic = Diagnostic::new(codes::UNKNOWN_DEVICE, name.span, message);
+            report(diagnostic, &name.value, self.devices.iter().copied(), "its devices are", diagnostics);
         }
         is_known
     }
@@ -118,35 +118,34 @@ impl<'a> Names<'a> {
             let Some(devices) = of_type.0.get(position.name.value.as_str()) else {
                 let message = format!("{what} has no position `{}`", position.name.value);
                 let known = of_type.0.keys().copied();
-                let help = help(&position.name.value, known, "its positions are", diagnostics);
-                diagnostics
-                    .push(Diagnostic::new(codes::UNKNOWN_IN_PLANT, position.name.span, message).help(help));
+                let diagnostic = Diagnostic::new(codes::UNKNOWN_IN_PLANT, position.name.span, message);
+                report(diagnostic, &position.name.value, known, "its positions are", diagnostics);
                 continue;
             };
             for node in &position.nodes {
                 let device = node.device.value.as_str();
                 if self.devices.contains(&device) && !devices.contains(device) {
                     let message = format!("position `{}` of {what} has no `{device}`", position.name.value);
-                    let help = help(device, devices.iter().copied(), "it has", diagnostics);
-                    diagnostics
-                        .push(Diagnostic::new(codes::UNKNOWN_IN_PLANT, node.device.span, message).help(help));
+                    let diagnostic = Diagnostic::new(codes::UNKNOWN_IN_PLANT, node.device.span, message);
+                    report(diagnostic, device, devices.iter().copied(), "it has", diagnostics);
                 }
             }
         }
     }
 }
 
-fn help<'a>(
+/// Reports a name that is not known, with the nearest of those that are, or all of them.
+fn report<'a>(
+    diagnostic: Diagnostic,
     name: &str,
     known: impl Iterator<Item = &'a str> + Clone,
     words: &str,
     diagnostics: &mut Diagnostics,
-) -> String {
-    match diagnostics.suggestions.nearest(name, known.clone()) {
-        Some(word) => format!("did you mean `{word}`?"),
-        None => {
-            let known: Vec<String> = known.map(|word| format!("`{word}`")).collect();
-            format!("{words} {}", known.join(", "))
-        }
-    }
+) {
+    let word = diagnostics.suggestions.nearest(name, known.clone());
+    let listed = || {
+        let known: Vec<String> = known.map(|word| format!("`{word}`")).collect();
+        format!("{words} {}", known.join(", "))
+    };
+    diagnostics.push(diagnostic.did_you_mean_or(word, listed));
 }

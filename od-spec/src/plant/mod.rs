@@ -66,8 +66,8 @@ pub struct PlantDevice {
     pub key: String,
     /// What its file describes.
     pub system: Arc<System>,
-    /// Which file that is: devices of one file have one number.
-    pub(crate) file: usize,
+    /// Position of its file in [`PlantFile::files`].
+    pub file: usize,
     /// The device, with the values of a DCF where it is from one.
     pub dictionary: Arc<Dictionary>,
     /// Of a DCF: its node, whose values all nodes begin with.

@@ -195,14 +195,17 @@ fn in_file(
     let Some(dictionary) = system.device(&key.value).or(only) else {
         let keys = system.devices.iter().map(|one| one.key.as_str());
         let message = format!("`{}` has no device `{}`", shorten(&device.from.value), shorten(&key.value));
-        let help = match diagnostics.suggestions.nearest(&key.value, keys.clone()) {
-            Some(word) => format!("did you mean `{word}`?"),
-            None => {
-                let keys: Vec<String> = keys.map(|key| format!("`{key}`")).collect();
-                format!("its devices are {}; name one with `device:`", keys.join(", "))
-            }
+        let word = diagnostics.suggestions.nearest(&key.value, keys.clone());
+        let listed = || {
+            let keys: Vec<String> = keys.map(|key| format!("`{key}`")).collect();
+            format!("its devices are {}; name one with `device:`", keys.join(", "))
         };
-        diagnostics.push(Diagnostic::new(codes::UNKNOWN_DEVICE, key.span, message).help(help));
+        let diagnostic = Diagnostic::new(codes::UNKNOWN_DEVICE, key.span, message);
+        // What the plant calls a device is its own.
+        diagnostics.push(match device.device {
+            Some(_) => diagnostic.did_you_mean_or(word, listed),
+            None => diagnostic.help(word.map_or_else(listed, |word| format!("write `device: {word}`"))),
+        });
         return None;
     };
     let dictionary = match node {

@@ -52,6 +52,12 @@ impl<'a> Lookup<'a> {
         }
     }
 
+    /// Whether a text is the index of an object of the dictionary, with a sub-index or without.
+    pub(crate) fn is_by_index(&self, text: &str) -> bool {
+        let by_index = hex_reference(text);
+        matches!(by_index, Some(HexReference::Entry(id)) if self.dictionary.objects.contains_key(&id.index))
+    }
+
     /// The object that a text without a sub-index means.
     pub(crate) fn object(&self, text: &str) -> Option<Index> {
         let is_whole = !text.contains(['.', ':']) && !text.to_ascii_lowercase().contains("sub");

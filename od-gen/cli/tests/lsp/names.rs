@@ -142,7 +142,8 @@ fn hover_tells_what_a_section_of_an_eds_says() {
     assert!(hover("[1000]", "AccessType=").starts_with("`1000h` **Device type**\n"));
     assert!(hover("[1018]", "[1018]").starts_with("`1018h` **Identity object."));
     assert_eq!(hover("[DeviceInfo]", "VendorName="), "");
-    assert_eq!(hover("[MandatoryObjects]", "1="), "");
+    // A list names objects.
+    assert!(hover("[MandatoryObjects]", "1=").starts_with("`1000h` **Device type**\n"));
 }
 
 #[test]
@@ -365,7 +366,7 @@ fn a_rename_changes_every_place_or_says_why_not() {
         ("name: mode of", "name: mo‸de of", " ", "cannot be empty"),
         ("name: mode of", "name: mo‸de of", "temperature °", "with this name"),
         ("title: Heater", "title: Hea‸ter", "x", "there is no name here"),
-        ("access: rw, default: 0, writable", "acc‸ess: rw, default: [0, writable", "x", "is no YAML"),
+        ("access: rw, default: 0, writable", "acc‸ess: rw, default: [0, writable", "x", "is not valid YAML"),
     ] {
         let refused = rename(from, to, name).unwrap_err();
         assert!(refused.contains(reason), "{to} {name}: {refused}");
@@ -415,4 +416,66 @@ fn lines_may_end_as_on_windows() {
     let answer = client.request_at("textDocument/hover", "heater.od.yaml", position);
     assert!(answer["contents"]["value"].as_str().unwrap().contains("limits.lowest"), "{answer}");
     assert_eq!(answer["range"]["start"]["line"], position.0);
+}
+
+#[test]
+fn only_keys_that_check_takes_are_offered_and_the_usual_ones_first() {
+    let mut session = Session::new("keys");
+    let labels = |items: &[Value]| -> Vec<String> {
+        let mut items: Vec<&Value> = items.iter().collect();
+        items.sort_by_key(|item| item["sortText"].as_str().unwrap().to_owned());
+        items.iter().map(|item| item["label"].as_str().unwrap().to_owned()).collect()
+    };
+    let (items, _) = session.complete("{name: switch,", "{name: switch, ‸,");
+    let of_var = labels(&items);
+    assert!(
+        !of_var.iter().any(|key| ["outside", "rounding", "omit", "sub0"].contains(&key.as_str())),
+        "{of_var:?}"
+    );
+    assert_eq!(of_var[..3], ["unit", "pdo", "min"], "{of_var:?}");
+    let (items, _) = session.complete("    name: limits\n", "    name: limits\n    ‸\n");
+    let of_record = labels(&items);
+    let refused = ["array", "alias", "default", "min", "special", "capacity"];
+    assert!(!of_record.iter().any(|key| refused.contains(&key.as_str())), "{of_record:?}");
+    let (items, _) = session.complete("access: ro, pdo: transmit}", "access: ro, ‸}");
+    assert!(!labels(&items).contains(&"writable-when".to_owned()));
+    // A unit by its symbol, and behind a number.
+    let (items, _) = session.complete("unit: tenth °C, access: ro", "unit: °‸, access: ro");
+    let unit = items.iter().find(|item| item["label"] == "tenth °C").unwrap();
+    assert_eq!(unit["filterText"], "°C");
+    let (items, _) = session.complete("default: 42.5 °C", "default: 42.5‸");
+    assert_eq!(labels(&items), ["42.5 °C"]);
+}
+
+#[test]
+fn texts_with_spaces_are_snippets_where_the_client_knows_them() {
+    let capabilities = json!({"textDocument": {"completion": {"completionItem": {"snippetSupport": true}}}});
+    let (mut client, _) = Client::with("snippets", &capabilities);
+    let (text, position) = heater("map: [mode of operation]", "map: [‸]");
+    client.open("heater.od.yaml", HEATER);
+    client.replace("heater.od.yaml", 2, &text);
+    let answer = client.request_at("textDocument/completion", "heater.od.yaml", position);
+    let items = answer["items"].as_array().unwrap();
+    let item = |label: &str| items.iter().find(|item| item["label"] == label).unwrap();
+    assert_eq!(item("0x2000")["insertTextFormat"], 1);
+    let (text, position) = heater("map: [mode of operation]", "map: [m‸]");
+    client.replace("heater.od.yaml", 3, &text);
+    let answer = client.request_at("textDocument/completion", "heater.od.yaml", position);
+    let items = answer["items"].as_array().unwrap();
+    let item = items.iter().find(|item| item["label"] == "mode of operation").unwrap();
+    assert_eq!(
+        (&item["insertTextFormat"], &item["textEdit"]["newText"]),
+        (&json!(2), &json!("mode of operation"))
+    );
+}
+
+#[test]
+fn a_lens_counts_pdos_and_references() {
+    let mut session = Session::new("lenses");
+    session.client.open("heater.od.yaml", HEATER);
+    session.client.diagnostics("heater.od.yaml", 1);
+    let lenses = session.client.request_about("textDocument/codeLens", "heater.od.yaml");
+    let titles: Vec<&str> =
+        lenses.as_array().unwrap().iter().map(|lens| lens["command"]["title"].as_str().unwrap()).collect();
+    assert_eq!(titles, ["RPDO 1 · TPDO 1 · 3 references", "TPDO 1 · 1 reference", "1 reference"]);
 }

@@ -2,14 +2,14 @@
 
 use lsp_types::CompletionItemKind;
 use od_spec::SettingNames;
-use od_spec::model::{DataType, Dictionary, Direction, Entry, EntryId, Object, PdoMapping};
+use od_spec::model::{DataType, Dictionary, Direction, Entry, EntryId, Object, PdoMapping, System};
 use od_spec::names::Step;
 
 use super::items::{Insert, Offer, Written};
 use super::{MARK, Wanted};
 use crate::hover::Words;
 
-/// Entries that may stand there: in a PDO those that may be mapped in its direction.
+/// Entries that can be written there: in a PDO those that can be mapped in its direction.
 pub(super) fn entries(wanted: &Wanted<'_>, written: &Written) -> Vec<Offer> {
     let direction = mapped_in(wanted);
     let fits = |entry: &Entry| match direction {
@@ -52,7 +52,6 @@ fn references(wanted: &Wanted<'_>, before: &str, fits: impl Fn(&Entry) -> bool) 
     let keys = wanted.place.devices();
     let devices =
         system.devices.iter().filter(|device| keys.is_empty() || keys.contains(&device.key.as_str()));
-    let words = Words::of(Some(system));
     let by_index = before.is_empty() || before.starts_with('0');
     let mut offers: Vec<Offer> = Vec::new();
     let mut seen = std::collections::BTreeSet::new();
@@ -63,14 +62,12 @@ fn references(wanted: &Wanted<'_>, before: &str, fits: impl Fn(&Entry) -> bool) 
             if object.is_structured() && id.sub.0 == 0 || !fits(entry) {
                 continue;
             }
-            // A name that others have, too, leads to none of them.
-            let name = device.entry_name(id).filter(|name| names.instead(name).is_empty());
-            let name = name.or_else(|| device.entry_label(id)).unwrap_or_default();
+            let name = name_of(device, &names, id);
             let number = reference(object, id);
             if !seen.insert((number.clone(), name.clone())) {
                 continue;
             }
-            let facts = facts(entry, words);
+            let facts = facts(entry, system);
             offers.push(if by_index {
                 Offer::word(&number, CompletionItemKind::FIELD).detail(format!("{name} {facts}"))
             } else {
@@ -81,13 +78,20 @@ fn references(wanted: &Wanted<'_>, before: &str, fits: impl Fn(&Entry) -> bool) 
     offers
 }
 
+/// The name of an entry; a name that several have leads to none of them.
+pub(super) fn name_of(device: &Dictionary, names: &SettingNames<'_>, id: EntryId) -> String {
+    let name = device.entry_name(id).filter(|name| names.instead(name).is_empty());
+    name.or_else(|| device.entry_label(id)).unwrap_or_default()
+}
+
 /// `0x6041`, `0x30FA.3`.
-fn reference(object: &Object, id: EntryId) -> String {
+pub(super) fn reference(object: &Object, id: EntryId) -> String {
     if object.is_structured() { format!("{}.{}", id.index.notation(), id.sub) } else { id.index.notation() }
 }
 
 /// Type, unit and access.
-fn facts(entry: &Entry, words: Words<'_>) -> String {
+pub(super) fn facts(entry: &Entry, system: &System) -> String {
+    let words = Words::of(Some(system));
     let unit = entry.unit.as_ref().map(|unit| format!(", {}", words.wording.step(unit)));
     format!("{}{}, {}", entry.data_type, unit.unwrap_or_default(), words.wording.access(entry))
 }
@@ -119,7 +123,7 @@ pub(super) fn condition(wanted: &Wanted<'_>, written: &Written) -> Vec<Offer> {
         .fold(before, |rest, word| rest.rsplit(word).next().unwrap_or(rest))
         .trim_start();
     let kept = &written.before[..written.before.len() - before.len()];
-    let behind = &written.behind[word_length(&written.behind)..];
+    let after = &written.after[word_length(&written.after)..];
     let mut offers = references(wanted, before, |_| true);
     offers
         .push(Offer::word("bit(", CompletionItemKind::FUNCTION).detail("bit(entry, number or name)").rank(6));
@@ -128,7 +132,7 @@ pub(super) fn condition(wanted: &Wanted<'_>, written: &Written) -> Vec<Offer> {
         .map(|offer| {
             let (Insert::Scalar(text) | Insert::Raw(text) | Insert::Snippet(text)) = &offer.insert;
             // The whole condition is one scalar, and may need quotes then.
-            let whole = format!("{kept}{text}{behind}");
+            let whole = format!("{kept}{text}{after}");
             Offer { insert: Insert::Scalar(whole), kept: kept.to_owned(), ..offer }
         })
         .collect()

@@ -5,9 +5,10 @@ use lsp_types::{
     MarkupKind, Position, Range, TextEdit,
 };
 use od_import::yaml::spelled;
+use od_spec::model::Access;
 use od_spec::source::Span;
 
-use super::MARK;
+use super::{Insertion, MARK};
 
 /// The word that is being completed.
 #[derive(Debug)]
@@ -17,9 +18,9 @@ pub(super) struct Written {
     pub end: usize,
     /// Its text up to the cursor.
     pub before: String,
-    /// Its text behind the cursor.
-    pub behind: String,
-    /// The quote in which it stands.
+    /// Its text after the cursor.
+    pub after: String,
+    /// The quote around it.
     pub quote: Option<char>,
     /// What follows it on its line.
     pub follows: char,
@@ -34,40 +35,46 @@ impl Written {
         let start = (span.start as usize).max(line_start);
         let end = (span.end as usize).min(line_end);
         let follows = marked[end..].chars().find(|c| *c != ' ').unwrap_or('\n');
-        let (before, behind) = word.split_once(MARK).unwrap_or((word, ""));
-        let (before, behind) = if (span.start as usize) < line_start || (span.end as usize) > line_end {
+        let (before, after) = word.split_once(MARK).unwrap_or((word, ""));
+        let (before, after) = if (span.start as usize) < line_start || (span.end as usize) > line_end {
             let line = marked.get(start..end).unwrap_or_default();
             line.split_once(MARK).unwrap_or((line, ""))
         } else {
-            (before, behind)
+            (before, after)
         };
         Self {
             start,
             end: end.saturating_sub(MARK.len_utf8()).max(start),
             before: before.to_owned(),
-            behind: behind.to_owned(),
+            after: after.to_owned(),
             quote,
             follows,
         }
     }
 }
 
-/// Something that could stand there.
+/// Something that can be written there.
 #[derive(Debug)]
 pub(super) struct Offer {
     /// What is shown.
     pub label: String,
     pub kind: CompletionItemKind,
-    /// Shown beside it.
+    /// Shown next to it.
     pub detail: Option<String>,
     /// Markdown about it.
     pub about: Option<String>,
     /// What is put in.
     pub insert: Insert,
-    /// How far up it stands; the lowest first.
+    /// Its place in the list: the lowest first.
     pub rank: u8,
-    /// What stands before the part of the word that it completes.
+    /// Its place among those of the same rank; by label if that is equal.
+    pub order: usize,
+    /// The text before the part of the word that it completes.
     pub kept: String,
+    /// Another text that finds it: the symbol of a unit, the name of a number.
+    pub also: Option<String>,
+    /// Whether a value follows, which can be completed next.
+    pub goes_on: bool,
 }
 
 /// What is put in.
@@ -85,8 +92,18 @@ impl Offer {
     /// A name.
     pub(super) fn name(text: &str, kind: CompletionItemKind) -> Self {
         let insert = Insert::Scalar(text.to_owned());
-        let (detail, about, kept) = (None, None, String::new());
-        Self { label: text.to_owned(), kind, detail, about, insert, rank: 5, kept }
+        Self {
+            label: text.to_owned(),
+            kind,
+            detail: None,
+            about: None,
+            insert,
+            rank: 5,
+            order: 0,
+            kept: String::new(),
+            also: None,
+            goes_on: false,
+        }
     }
 
     /// A word that needs no quotes.
@@ -109,23 +126,45 @@ impl Offer {
         self
     }
 
+    pub(super) fn also(mut self, text: impl Into<String>) -> Self {
+        self.also = Some(text.into());
+        self
+    }
+
+    /// The text by which editors find it: they compare it with what is written, quote included.
+    fn filter_text(&self, written: &Written) -> String {
+        let quote = written.quote.map(String::from).unwrap_or_default();
+        let part = written.before.strip_prefix(self.kept.as_str()).unwrap_or(&written.before).to_lowercase();
+        let begins = |text: &String| !part.is_empty() && text.to_lowercase().starts_with(&part);
+        let text = self.also.as_ref().filter(|also| !begins(&self.label) && begins(also));
+        format!("{quote}{}{}", self.kept, text.unwrap_or(&self.label))
+    }
+
     /// The item as the protocol has it, in the place of what is written.
-    pub(super) fn into_item(self, written: &Written, position: impl Fn(usize) -> Position) -> CompletionItem {
-        let (new_text, format) = match self.insert {
+    pub(super) fn into_item(
+        self,
+        written: &Written,
+        client: &Insertion,
+        position: impl Fn(usize) -> Position,
+    ) -> CompletionItem {
+        let filter_text = self.filter_text(written);
+        let filter_text = (filter_text != self.label).then_some(filter_text);
+        let (text, format) = match self.insert {
             Insert::Scalar(text) => (quoted(&text, written.quote), InsertTextFormat::PLAIN_TEXT),
             Insert::Raw(text) => (text, InsertTextFormat::PLAIN_TEXT),
             Insert::Snippet(text) => (text, InsertTextFormat::SNIPPET),
         };
-        // Editors compare what is written, quote included, with the beginning of this text.
-        let quote = written.quote.map(String::from).unwrap_or_default();
-        let filter_text = format!("{quote}{}{}", self.kept, self.label);
-        let filter_text = (filter_text != self.label).then_some(filter_text);
+        // Some editors cut a plain text at its first space.
+        let is_cut = client.snippets && format == InsertTextFormat::PLAIN_TEXT && text.contains(' ');
+        let (new_text, format) =
+            if is_cut { (as_snippet(&text), InsertTextFormat::SNIPPET) } else { (text, format) };
         let range = Range { start: position(written.start), end: position(written.end) };
         let documentation = self
             .about
             .map(|value| Documentation::MarkupContent(MarkupContent { kind: MarkupKind::Markdown, value }));
         CompletionItem {
-            sort_text: Some(format!("{}{}", self.rank, self.label.to_lowercase())),
+            sort_text: Some(format!("{}{:03}{}", self.rank, self.order, self.label.to_lowercase())),
+            command: client.next.clone().filter(|_| self.goes_on),
             label: self.label,
             kind: Some(self.kind),
             detail: self.detail,
@@ -138,7 +177,21 @@ impl Offer {
     }
 }
 
-/// A text as a scalar, in the quotes that stand there already.
+/// The access types, the one of constants last.
+pub(super) fn access_types() -> Vec<Offer> {
+    let words = Access::WORDS.iter().enumerate().map(|(order, word)| Offer {
+        order: if *word == Access::Const.word() { Access::WORDS.len() } else { order },
+        ..Offer::word(word, CompletionItemKind::KEYWORD)
+    });
+    words.collect()
+}
+
+/// A text as a snippet without places for the cursor.
+fn as_snippet(text: &str) -> String {
+    text.replace('\\', r"\\").replace('$', r"\$").replace('}', r"\}")
+}
+
+/// A text as a scalar, in the quotes that are written already.
 fn quoted(text: &str, quote: Option<char>) -> String {
     match quote {
         Some('\'') => format!("'{}'", text.replace('\'', "''")),

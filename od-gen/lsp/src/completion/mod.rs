@@ -1,15 +1,17 @@
-//! What could stand where the cursor is.
+//! What can be written at the cursor.
 //!
 //! A sign that no text has is put in at the cursor, and the text is read leniently: so there is always a word to be completed, and the
-//! table of keys tells what it may be. Names come from all files of the specification as they are now; the facts about entries
+//! table of keys says what it may be. Names come from all files of the specification as they are now; the facts about entries
 //! from the last model.
 
+mod eds;
 mod entries;
 mod items;
 mod keys;
 mod names;
+mod settings;
 
-use lsp_types::{CompletionItem, Position};
+use lsp_types::{Command, CompletionItem, Position};
 use od_spec::keys::{Keys, Shape};
 use od_spec::names::{Names, Place, Spot};
 use od_spec::source::Span;
@@ -23,23 +25,24 @@ use items::Written;
 const MARK: char = '\u{F8FF}';
 
 /// How a client wants completions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Insertion {
-    /// As texts.
-    #[default]
-    Text,
-    /// With places for the cursor.
-    Snippet,
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Insertion {
+    /// Whether it knows snippets: texts with places for the cursor.
+    pub snippets: bool,
+    /// The command of the client that offers completions once more, for the value after a key.
+    pub next: Option<Command>,
 }
 
-/// What could stand at a position.
+/// What can be written at a position.
 pub(super) fn completion(
     snapshot: &Snapshot,
     position: Position,
-    insertion: Insertion,
+    insertion: &Insertion,
 ) -> Vec<CompletionItem> {
-    if snapshot.now.kind != Kind::Specification {
-        return Vec::new();
+    match snapshot.now.kind {
+        Kind::Specification | Kind::Plant | Kind::Parameters => {}
+        Kind::Eds => return eds::completion(snapshot, position, insertion),
+        Kind::Xdd | Kind::Foreign => return Vec::new(),
     }
     let (text, offset) = (snapshot.text(), snapshot.offset(position));
     let mut marked = String::with_capacity(text.len() + MARK.len_utf8());
@@ -56,15 +59,18 @@ pub(super) fn completion(
     };
     let Some(word) = word.filter(|word| word.value.contains(MARK)) else { return Vec::new() };
     let written = Written::of(&marked, word.value, word.span, offset);
-    let wanted = Wanted { snapshot, names: snapshot.now.names(), tree: &tree, place: &place, insertion };
+    let wanted = Wanted { snapshot, names: snapshot.names(), tree: &tree, place: &place, insertion };
     let offers = match place.spot {
         Spot::Key { map, keys, .. } => keys::of_map(map, keys, &written, &wanted),
-        Spot::Data { map, kind, .. } => names::of_keys(map, kind, &written, &wanted),
+        Spot::Data { map, kind, .. } => settings::of_keys(map, kind, &written, &wanted)
+            .unwrap_or_else(|| names::of_keys(map, kind, &written, &wanted)),
+        Spot::Value { shape: Shape::Setting, .. } => settings::of_value(&written, &wanted),
+        Spot::Value { shape: Shape::Text, .. } => settings::of_text(&wanted),
         Spot::Value { shape, .. } => names::of_value(shape, &written, &wanted),
     };
     let encoding = snapshot.encoding;
     let position = |byte: usize| snapshot.lines().position(text, byte, encoding);
-    offers.into_iter().map(|offer| offer.into_item(&written, position)).collect()
+    offers.into_iter().map(|offer| offer.into_item(&written, insertion, position)).collect()
 }
 
 /// What is asked for.
@@ -75,7 +81,7 @@ struct Wanted<'a> {
     /// The text with the mark in it.
     tree: &'a Node,
     place: &'a Place<'a>,
-    insertion: Insertion,
+    insertion: &'a Insertion,
 }
 
 impl Wanted<'_> {

@@ -3,13 +3,13 @@
 use lsp_types::CompletionItemKind;
 use od_spec::LIBRARIES;
 use od_spec::keys::{KeyKind, NameOf, Shape, VERSION};
-use od_spec::model::{Access, BitUsage, DataType, NamedType, System, TypeKind};
+use od_spec::model::{Access, BitUsage, DataType, NamedType, System, TypeKind, Unit};
 use od_spec::names::{Definition, Kind, Spelling, Step};
 use od_spec::wording::Language;
 use od_spec::yaml::Node;
 
 use super::entries;
-use super::items::{Insert, Offer, Written};
+use super::items::{Insert, Offer, Written, access_types};
 use super::{MARK, Wanted, keys, long_form};
 use crate::cursor::entry_around;
 use crate::library;
@@ -17,13 +17,13 @@ use crate::library;
 /// Keys of a map that are data: devices, objects of libraries, languages.
 pub(super) fn of_keys(map: &Node, kind: KeyKind, written: &Written, wanted: &Wanted<'_>) -> Vec<Offer> {
     let is_there = |key: &str| map.entries().iter().any(|(name, _)| name.value == key);
-    let behind = if written.follows == ':' { "" } else { ": " };
+    let colon = if written.follows == ':' { "" } else { ": " };
     let keyed = |offer: Offer| {
         let text = match &offer.insert {
             Insert::Scalar(text) => od_import::yaml::spelled(text),
             Insert::Raw(text) | Insert::Snippet(text) => text.clone(),
         };
-        Offer { insert: Insert::Raw(format!("{text}{behind}")), ..offer }
+        Offer { insert: Insert::Raw(format!("{text}{colon}")), ..offer }
     };
     let offers = match kind {
         KeyKind::Device => defined(wanted, Kind::Device),
@@ -87,14 +87,16 @@ fn objects_of_libraries(wanted: &Wanted<'_>, written: &Written) -> Vec<Offer> {
 /// Values of a shape.
 pub(super) fn of_value(shape: Shape, written: &Written, wanted: &Wanted<'_>) -> Vec<Offer> {
     let words = |words: &[&str]| -> Vec<Offer> {
-        words.iter().map(|word| Offer::word(word, CompletionItemKind::KEYWORD)).collect()
+        let offer =
+            |(order, word): (usize, &&str)| Offer { order, ..Offer::word(word, CompletionItemKind::KEYWORD) };
+        words.iter().enumerate().map(offer).collect()
     };
     match shape {
         Shape::Choice(choice) => words(choice),
         Shape::YesNo => words(&["yes", "no"]),
         Shape::Version => words(&[&VERSION.to_string()]),
         Shape::Access => {
-            let mut offers = words(Access::WORDS);
+            let mut offers = access_types();
             let locked = Access::WORDS.iter().filter(|word| !matches!(**word, "ro" | "const"));
             offers.extend(
                 locked
@@ -113,7 +115,11 @@ pub(super) fn of_value(shape: Shape, written: &Written, wanted: &Wanted<'_>) -> 
         Shape::Index => entries::objects(wanted),
         Shape::ErrorCode => error_codes(wanted),
         Shape::Condition => entries::condition(wanted, written),
-        Shape::Value | Shape::Default => values(wanted),
+        Shape::Value | Shape::Default => {
+            let mut offers = values(wanted);
+            offers.extend(with_units(written, &units(wanted)));
+            offers
+        }
         Shape::ShortOr(short, _) => {
             let mut offers = of_value(*short, written, wanted);
             // The long form, in the place of the short one.
@@ -161,6 +167,16 @@ fn of_name(of: NameOf, wanted: &Wanted<'_>) -> Vec<Offer> {
         let words = words.iter().map(|word| Offer::word(word, CompletionItemKind::KEYWORD).rank(6));
         words.collect::<Vec<_>>()
     };
+    let of_model = |kind: Kind| {
+        let offers = defined(wanted, kind);
+        let devices = wanted.snapshot.system().map(|system| system.devices.as_slice()).unwrap_or_default();
+        if offers.is_empty() {
+            let keys = devices.iter().map(|device| Offer::name(&device.key, CompletionItemKind::MODULE));
+            keys.collect()
+        } else {
+            offers
+        }
+    };
     let mut offers = match of {
         NameOf::Unit => defined(wanted, Kind::Unit),
         NameOf::NamedType => defined(wanted, Kind::Type),
@@ -170,7 +186,7 @@ fn of_name(of: NameOf, wanted: &Wanted<'_>) -> Vec<Offer> {
             LIBRARIES.iter().map(|(name, _)| Offer::word(name, CompletionItemKind::MODULE)).collect()
         }
         NameOf::File => defined(wanted, Kind::File),
-        NameOf::Device => defined(wanted, Kind::Device),
+        NameOf::Device => of_model(Kind::Device),
         NameOf::Feature => defined(wanted, Kind::Feature),
         NameOf::Machine => defined(wanted, Kind::Machine),
         NameOf::Constraint => defined(wanted, Kind::Constraint),
@@ -191,7 +207,7 @@ fn of_name(of: NameOf, wanted: &Wanted<'_>) -> Vec<Offer> {
         NameOf::Block => in_picture(wanted, "flow", "block"),
         NameOf::Mark => in_picture(wanted, "axis", "mark"),
     };
-    // What stands in the list already.
+    // What is in the list already.
     if let Some(Step::Item { list, .. }) = wanted.place.path.last() {
         let there: Vec<&str> = list.items().iter().filter_map(|item| Some(item.text()?.value)).collect();
         offers.retain(|offer| !there.contains(&offer.label.as_str()));
@@ -252,7 +268,46 @@ fn offer(wanted: &Wanted<'_>, one: &Definition) -> Offer {
     // What the specification defines itself goes before what libraries do.
     let root = wanted.snapshot.now.root;
     let is_own = root.is_some_and(|root| one.span.file.is_one_with(root));
-    Offer::name(&one.name, kind).detail(detail.unwrap_or_default()).rank(if is_own { 4 } else { 5 })
+    let offer = Offer::name(&one.name, kind).detail(detail.unwrap_or_default());
+    let offer = offer.rank(if is_own { 4 } else { 5 });
+    match system.and_then(|system| system.units.get(&one.name)).filter(|_| one.kind == Kind::Unit) {
+        Some(unit) => offer.also(unit.symbol.clone()),
+        None => offer,
+    }
+}
+
+/// The unit of the entry around, as far as it is written there or in the model.
+fn units<'a>(wanted: &'a Wanted<'_>) -> Vec<&'a Unit> {
+    let Some(system) = wanted.snapshot.system() else { return Vec::new() };
+    let written = wanted.place.path.iter().rev().find_map(|step| match step {
+        Step::Key { map, keys, .. } => keys.get("unit").and_then(|_| map.get("unit")).and_then(Node::text),
+        Step::Data { .. } | Step::Item { .. } => None,
+    });
+    if let Some(unit) = written.and_then(|name| system.units.get(name.value)) {
+        return vec![unit];
+    }
+    let entry = entry_around(&wanted.place.path)
+        .and_then(|id| system.devices.iter().find_map(|device| device.entry(id)));
+    entry.and_then(|entry| entry.unit.as_deref()).into_iter().collect()
+}
+
+/// A number that is written, with the symbols in which it may be.
+pub(super) fn with_units(written: &Written, units: &[&Unit]) -> Vec<Offer> {
+    let before = written.before.as_str();
+    let end =
+        before.find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+'))).unwrap_or(before.len());
+    let number = &before[..end];
+    if !number.ends_with(|c: char| c.is_ascii_digit()) {
+        return Vec::new();
+    }
+    let symbols = units.iter().flat_map(|unit| {
+        let base = unit.base.as_ref().map(|base| (base.symbol.as_str(), 7));
+        [(unit.symbol.as_str(), 6)].into_iter().chain(base)
+    });
+    symbols
+        .filter(|(symbol, _)| !symbol.is_empty())
+        .map(|(symbol, rank)| Offer::name(&format!("{number} {symbol}"), CompletionItemKind::UNIT).rank(rank))
+        .collect()
 }
 
 fn unit(system: &System, name: &str) -> Option<String> {
@@ -328,7 +383,7 @@ fn values(wanted: &Wanted<'_>) -> Vec<Offer> {
     entry.map(|named| of_type(named)).unwrap_or_default()
 }
 
-fn of_type(named: &NamedType) -> Vec<Offer> {
+pub(super) fn of_type(named: &NamedType) -> Vec<Offer> {
     match &named.kind {
         TypeKind::Enum(values) => values
             .iter()

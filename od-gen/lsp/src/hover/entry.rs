@@ -71,7 +71,7 @@ impl Described<'_> {
             lines.push(line(Fact::Unit, format!("{}, {step}", code(&unit.name))));
         }
         lines.push(line(Fact::Access, words.access(entry)));
-        lines.extend(self.standing(entry));
+        lines.extend(self.values(entry));
         if entry.pdo != PdoMapping::None {
             lines.push(line(Fact::Mapping, words.mapping(entry.pdo).to_owned()));
         }
@@ -102,8 +102,8 @@ impl Described<'_> {
         format!("{}, {data_type}{members}", code(&named.name))
     }
 
-    /// Default, limits and special values, raw values behind physical ones.
-    fn standing(&self, entry: &Entry) -> Vec<String> {
+    /// Default, limits and special values, physical ones with their raw values.
+    fn values(&self, entry: &Entry) -> Vec<String> {
         let words = self.words.wording;
         let mut lines = Vec::new();
         if let Some(default) = &entry.default {
@@ -195,7 +195,7 @@ impl Described<'_> {
         if let Some(entry) = library::entry(profile, self.id) {
             said.push(entry.data_type.to_string());
             said.push(words.access(entry));
-            said.extend(self.standing(entry));
+            said.extend(self.values(entry));
         }
         let said = if said.is_empty() { String::new() } else { format!(" ({})", said.join("; ")) };
         vec![format!("{}{said} ≠ {}", escaped(profile), departures.join(", "))]

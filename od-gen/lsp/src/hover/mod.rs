@@ -1,4 +1,4 @@
-//! What there is to know about what stands at a position.
+//! What there is to know about what is at a position.
 
 mod definition;
 mod entry;
@@ -21,21 +21,19 @@ use super::snapshot::Snapshot;
 /// What there is to know, if there is something.
 pub(super) fn hover(snapshot: &Snapshot, position: Position) -> Option<Hover> {
     let (text, span) = match snapshot.now.kind {
-        analysis::Kind::Specification => told(&Cursor::of(snapshot, position)?)?,
-        analysis::Kind::Eds => section::of_section(snapshot, position)?,
-        analysis::Kind::Plant
-        | analysis::Kind::Parameters
-        | analysis::Kind::Xdd
-        | analysis::Kind::Foreign => {
-            return None;
+        analysis::Kind::Specification | analysis::Kind::Plant | analysis::Kind::Parameters => {
+            at_cursor(&Cursor::of(snapshot, position)?)?
         }
+        analysis::Kind::Eds => section::of_section(snapshot, position)?,
+        analysis::Kind::Xdd => section::of_element(snapshot, position)?,
+        analysis::Kind::Foreign => return None,
     };
     let contents = HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value: text });
     Some(Hover { contents, range: Some(snapshot.range(span)) })
 }
 
 /// The text, and what it is about.
-fn told(cursor: &Cursor<'_>) -> Option<(String, Span)> {
+fn at_cursor(cursor: &Cursor<'_>) -> Option<(String, Span)> {
     let words = Words::of(cursor.snapshot.system());
     if let Some((text, span)) = cursor.found().and_then(|found| of_name(cursor, found, words)) {
         return Some((text, span));
@@ -44,11 +42,18 @@ fn told(cursor: &Cursor<'_>) -> Option<(String, Span)> {
     match place.spot {
         Spot::Key { keys, name, .. } => Some((key::of_key(keys, name.value)?, name.span)),
         Spot::Value { node, .. } => {
-            let of_value = value::of_value(cursor, &place, words);
+            let of_value = value::of_value(cursor, &place, words).or_else(|| of_setting(cursor, &place));
             Some((of_value.or_else(|| around(&place))?, node.span))
         }
         Spot::Data { name, .. } => Some((around(&place)?, name.span)),
     }
+}
+
+/// The entry that is set at a place of a parameter file or plant.
+fn of_setting(cursor: &Cursor<'_>, place: &Place<'_>) -> Option<String> {
+    let setting = place.setting()?;
+    let (system, device) = cursor.snapshot.device_of(&setting)?;
+    entry::of_entry(system, setting.entry(device)?, &[&device.key], Words::of(Some(system)))
 }
 
 /// The key that leads to a place.

@@ -1,4 +1,4 @@
-//! What is behind the value of an entry: the raw value of a physical one, the number of a name.
+//! What the value of an entry means: the raw value of a physical one, the number of a name.
 
 use od_spec::model::{Dictionary, Entry, EntryId, Fact, System, Value};
 use od_spec::names::{Place, Spot, Step};
@@ -15,7 +15,7 @@ pub(super) fn of_value(cursor: &Cursor<'_>, place: &Place<'_>, words: Words<'_>)
         Step::Data { .. } | Step::Item { .. } => None,
     })?;
     let fact = fact_of(key)?;
-    let system = cursor.snapshot.now.system.as_ref()?;
+    let system = cursor.snapshot.now.system()?;
     let (device, id, entry) = stated_at(system, node.span, fact).next().or_else(|| {
         let id = entry_around(&place.path)?;
         let device = system.devices.iter().find(|device| device.entry(id).is_some())?;
@@ -48,7 +48,7 @@ pub(crate) fn value_of(entry: &Entry, fact: Fact) -> Option<Value> {
     }
 }
 
-/// The entries for which a fact stands at a place.
+/// The entries whose fact is stated at a place.
 fn stated_at(
     system: &System,
     place: Span,

@@ -9,7 +9,7 @@ use od_spec::names::{By, DefinitionId, Names};
 use od_spec::source::{SourceMap, Span};
 use od_spec::yaml::{Node, parse};
 
-/// A part of the text of a scalar, and what stands there afterwards; without a range, the whole.
+/// A part of the text of a scalar, and what is written there afterwards; without a range, the whole.
 type Part = (Option<Range<usize>>, String);
 
 /// What is to be written in the place of scalars, or of parts of them.
@@ -28,13 +28,13 @@ pub(super) fn edits(
     }
     let mut edits = Vec::with_capacity(scalars.len());
     for (span, parts) in scalars {
-        // An alias shows what its anchor stands at, which is changed itself.
+        // An alias shows the value of its anchor, which is changed itself.
         let written = sources.text(span);
         if written.starts_with('*') {
             continue;
         }
         let new = rewritten(written, parts).ok_or_else(|| {
-            format!("{}: the name stands in a text of several lines; write it on one", sources.place(span))
+            format!("{}: the name is in a text of several lines; write that on one line", sources.place(span))
         })?;
         edits.push((span, new));
     }
@@ -58,11 +58,11 @@ fn rewritten(written: &str, mut parts: Vec<Part>) -> Option<String> {
         }
         Some('"' | '\'') => Some(spelled(&new)),
         _ if written == text => {
-            // What does not stand in brackets stands in lines, where more is allowed.
+            // What is not in brackets is in lines, where more is allowed.
             let stays = if holds_in_brackets(&text) { holds_in_brackets(&new) } else { holds_in_lines(&new) };
             Some(if stays { new } else { spelled(&new) })
         }
-        // Several lines, or a block scalar: the parts stand there as they are.
+        // Several lines, or a block scalar: the parts are written there as they are.
         _ => in_lines(written, &text, &parts),
     }
 }
@@ -85,7 +85,7 @@ fn text_of(written: &str) -> Option<String> {
     let file = sources.add("scalar", text);
     let tree = parse(file, sources.file(file), &mut Diagnostics::new())?;
     let text = tree.items().first()?.text()?.value.to_owned();
-    // Lines that are folded where they stand.
+    // Lines that are folded where they are.
     Some(if written.starts_with(['"', '\'']) {
         text
     } else {
@@ -93,12 +93,12 @@ fn text_of(written: &str) -> Option<String> {
     })
 }
 
-/// Whether a text may stand without quotes as a key and as a value in lines.
+/// Whether a text can be written without quotes as a key and as a value in lines.
 fn holds_in_lines(text: &str) -> bool {
     reads(&format!("a: {text}\n{text}: f\n"), |tree| is_text(tree.get("a"), text) && tree.get(text).is_some())
 }
 
-/// Whether it may stand so in brackets, too.
+/// Whether this also holds in brackets.
 fn holds_in_brackets(text: &str) -> bool {
     holds_in_lines(text)
         && reads(&format!("b: {{c: {text}, {text}: d, e: [{text}]}}\n"), |tree| {
@@ -119,7 +119,7 @@ fn reads(document: &str, is_right: impl FnOnce(&Node) -> bool) -> bool {
     parse(file, sources.file(file), &mut Diagnostics::new()).is_some_and(|tree| is_right(&tree))
 }
 
-/// Replaces parts that stand in several lines, if each of them stands there as often as in the text.
+/// Replaces parts in several lines, if each of them is there as often as in the text.
 fn in_lines(written: &str, text: &str, parts: &[Part]) -> Option<String> {
     let mut new = written.to_owned();
     // From the last to the first, as they are sorted.

@@ -4,6 +4,7 @@
 //! reference that leads elsewhere – is a reason to refuse it.
 
 mod edits;
+mod nodes;
 #[cfg(test)]
 mod tests;
 mod trial;
@@ -14,8 +15,11 @@ use lsp_types::{Position, PrepareRenameResponse, Range, TextEdit, Uri, Workspace
 use od_spec::names::{By, Definition, DefinitionId, Found, Kind, Names, Spelling};
 use od_spec::source::Span;
 
+use super::analysis::{self, Analysis};
 use super::cursor::Cursor;
+use super::position::Encoding;
 use super::snapshot::Snapshot;
+use super::workspace::Workspace;
 
 /// The range of the name at a position, and the name; or why it cannot be another one.
 pub(super) fn prepare(snapshot: &Snapshot, position: Position) -> Result<PrepareRenameResponse, String> {
@@ -27,8 +31,14 @@ pub(super) fn prepare(snapshot: &Snapshot, position: Position) -> Result<Prepare
     })
 }
 
-/// The changes that give what stands at a position another name; or why it cannot have that.
-pub(super) fn rename(snapshot: &Snapshot, position: Position, name: &str) -> Result<WorkspaceEdit, String> {
+/// The changes that give what is at a position another name, in the specification and in the parameter files and plants that
+/// name it; or why it cannot have that.
+pub(super) fn rename(
+    snapshot: &Snapshot,
+    position: Position,
+    name: &str,
+    workspace: &mut Workspace,
+) -> Result<WorkspaceEdit, String> {
     let (cursor, _) = named(snapshot, position)?;
     let name = name.trim();
     let first = meant(&cursor)?;
@@ -39,15 +49,29 @@ pub(super) fn rename(snapshot: &Snapshot, position: Position, name: &str) -> Res
     let renamed: BTreeMap<DefinitionId, String> = all.iter().map(|id| (*id, name.to_owned())).collect();
     let changes = edits::edits(&snapshot.now.sources, names, &renamed)?;
     trial::check(&snapshot.now, &changes)?;
+    let mut edits = text_edits(&snapshot.now, changes.iter(), snapshot.encoding)?;
+    for (analysis, changes) in nodes::changes(&snapshot.now, &renamed, &changes, workspace)? {
+        edits.extend(text_edits(&analysis, changes.iter(), snapshot.encoding)?);
+    }
+    Ok(WorkspaceEdit { changes: Some(edits.into_iter().collect()), ..WorkspaceEdit::default() })
+}
+
+/// Changes of the files of an analysis, as the protocol has them.
+fn text_edits<'c>(
+    analysis: &Analysis,
+    changes: impl Iterator<Item = &'c (Span, String)>,
+    encoding: Encoding,
+) -> Result<Vec<(Uri, Vec<TextEdit>)>, String> {
     let mut by_file: BTreeMap<_, Vec<TextEdit>> = BTreeMap::new();
     for (span, new_text) in changes {
-        by_file.entry(span.file).or_default().push(TextEdit { range: snapshot.range(span), new_text });
+        let edit = TextEdit { range: analysis.range(*span, encoding), new_text: new_text.clone() };
+        by_file.entry(span.file).or_default().push(edit);
     }
-    let changes = by_file.into_iter().map(|(file, edits)| {
-        let uri: Option<Uri> = snapshot.now.uri(file).cloned();
+    let edits = by_file.into_iter().map(|(file, edits)| {
+        let uri = analysis.uri(file).cloned();
         uri.map(|uri| (uri, edits)).ok_or_else(|| "a file of the specification has no address".to_owned())
     });
-    Ok(WorkspaceEdit { changes: Some(changes.collect::<Result<_, _>>()?), ..WorkspaceEdit::default() })
+    edits.collect()
 }
 
 /// The place with a name in it, and the name's.
@@ -58,14 +82,14 @@ fn named(snapshot: &Snapshot, position: Position) -> Result<(Cursor<'_>, Span), 
     if let Some(file) = broken {
         let name = snapshot.now.sources.file(file).name();
         return Err(format!(
-            "`{name}` is no YAML at the moment; what refers to a name is not known for sure"
+            "`{name}` is not valid YAML at the moment; the references to a name are not known"
         ));
     }
     let span = match cursor.found().ok_or_else(nothing)? {
         Found::Reference(one) => match one.by {
             By::Name => one.span,
             By::Pattern => {
-                return Err("a number stands in this name; rename it where it is defined".to_owned());
+                return Err("this name has a number in it; rename it where it is defined".to_owned());
             }
             By::Identifier => {
                 return Err("this is an identifier; edit it where it is defined".to_owned());
@@ -102,8 +126,11 @@ fn meant(cursor: &Cursor<'_>) -> Result<DefinitionId, String> {
     for id in same(names, first) {
         let one = names.definition(id);
         if root.is_none_or(|root| !one.span.file.is_one_with(root)) {
-            let library = cursor.snapshot.now.sources.file(one.span.file).name();
-            return Err(format!("`{}` is a name of the library {library}", one.name));
+            let file = cursor.snapshot.now.sources.file(one.span.file).name();
+            return Err(match cursor.snapshot.now.kind {
+                analysis::Kind::Specification => format!("`{}` is a name of the library {file}", one.name),
+                _ => format!("`{}` is a name of {file}; rename it there", one.name),
+            });
         }
     }
     match (one.spelling, one.kind) {
@@ -112,7 +139,7 @@ fn meant(cursor: &Cursor<'_>) -> Result<DefinitionId, String> {
         }
         (Spelling::Written, _) => Ok(first),
         (Spelling::Pattern, _) => {
-            Err(format!("`{}` stands for several names; edit it where it is written", one.name))
+            Err(format!("`{}` means several names; edit it where it is written", one.name))
         }
         (Spelling::Elsewhere, _) => {
             Err(format!("the name of {} {} follows from something else", one.kind.word(), one.name))

@@ -64,7 +64,7 @@ fn shipped(name: &str) -> (String, BTreeMap<String, String>) {
     (format!("{name}.od.yaml"), texts.into_iter().collect())
 }
 
-/// What a model says, as texts in which names have lost what was put behind them; what lies in the order of names is sorted.
+/// What a model says, as texts in which names have lost what was appended to them; what is in the order of names is sorted.
 fn dump(system: &System, suffix: &str) -> serde_json::Value {
     fn sorted(value: serde_json::Value, suffix: &str) -> serde_json::Value {
         use serde_json::Value;
@@ -75,7 +75,7 @@ fn dump(system: &System, suffix: &str) -> serde_json::Value {
                 list.sort_by_key(ToString::to_string);
                 Value::Array(list)
             }
-            // What has another name than in its library departs from it in that, and lies beside the library's.
+            // What has another name than in its library departs from it in that, and is next to the library's.
             Value::Object(map) => map
                 .into_iter()
                 .filter(|(key, _)| !matches!(key.as_str(), "differs" | "units"))
@@ -106,7 +106,7 @@ fn difference(one: &serde_json::Value, other: &serde_json::Value) -> Option<Stri
     }
 }
 
-/// Put behind every name; no text of the specifications has it.
+/// Appended to every name; no text of the specifications has it.
 const SUFFIX: &str = "qxqz";
 
 #[test]

@@ -1,18 +1,17 @@
 //! Whether changed texts say the same as before.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use od_readers::remark;
 use od_spec::diag::{Diagnostic, Diagnostics};
-use od_spec::file_name;
 use od_spec::names::{DefinitionId, Names};
 use od_spec::source::{FileId, SourceFile, SourceMap, Span};
 use od_spec::yaml::Node;
 use od_spec::{Loader, compile};
 
 use crate::analysis::Analysis;
+use crate::place::beside;
 use crate::trees::Trees;
 
 /// Gives texts by their names, and their trees.
@@ -23,8 +22,10 @@ struct Texts {
 
 impl Loader for Texts {
     fn load(&mut self, path: &str, from: &str) -> Result<Vec<u8>, String> {
-        let name = file_name::shown(Path::new(from).parent().unwrap_or(Path::new("")).join(path));
-        self.by_name.get(&name).map(|text| text.clone().into_bytes()).ok_or_else(|| "no such file".to_owned())
+        self.by_name
+            .get(&beside(from, path))
+            .map(|text| text.clone().into_bytes())
+            .ok_or_else(|| "no such file".to_owned())
     }
 
     fn tree(
@@ -75,7 +76,7 @@ pub(super) fn changed(file: FileId, text: &str, changes: &[(Span, String)]) -> S
 }
 
 /// A message of which there are more than before, of its code.
-fn news<'a>(before: &Diagnostics, after: &'a Diagnostics) -> Option<&'a Diagnostic> {
+pub(super) fn news<'a>(before: &Diagnostics, after: &'a Diagnostics) -> Option<&'a Diagnostic> {
     let count = |list: &Diagnostics, id: &str| list.iter().filter(|one| one.code.id == id).count();
     after.iter().find(|one| count(after, one.code.id) > count(before, one.code.id))
 }

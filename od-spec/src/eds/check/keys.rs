@@ -1,6 +1,6 @@
 //! Which keys a section may have, and how the standard spells them.
 
-use crate::eds::names::{ModuleTopic, Topic};
+use crate::eds::names::{ModuleTopic, Topic, topic};
 
 const FILE_INFO: &[&str] = &[
     "FileName",
@@ -128,6 +128,11 @@ pub(super) fn is_no_text(key: &str) -> bool {
     ];
     let is_dummy = key.get(..5).is_some_and(|front| front.eq_ignore_ascii_case("Dummy"));
     is_dummy || (known.into_iter().any(is_among) && !is_among(&TEXTS))
+}
+
+/// The keys with a name that the section of a name may have, as the standard spells them.
+pub fn keys_of_section(name: &str) -> impl Iterator<Item = &'static str> {
+    of(topic(name)).into_iter().flat_map(|keys| keys.named.iter().copied().flatten().copied())
 }
 
 /// The keys of a section.

@@ -122,7 +122,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 44] = [
+pub(crate) static PARTS: [Part; 46] = [
     rust("form", "form", Tier::Check, form::check),
     rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
@@ -183,6 +183,7 @@ pub(crate) static PARTS: [Part; 44] = [
     reader("faults", "faults on a live bus", Tier::Gate, readers::faults),
     reader("dbc", "DBC readers", Tier::Gate, readers::dbc),
     reader("lsp", "language server", Tier::Gate, readers::language_server),
+    reader("editors", "language server in Neovim", Tier::Gate, readers::editors),
     Part {
         uses: NODE,
         ..reader("sdo", "SDO client", Tier::Gate, |runner| readers::sdo_client(runner, Amount::Sample))
@@ -329,6 +330,16 @@ pub(crate) static PARTS: [Part; 44] = [
             "SDO client with all devices",
             Tier::Long("asks three devices the same; the gate asks one"),
             |runner| readers::sdo_client(runner, Amount::All),
+        )
+    },
+    Part {
+        needs: &[Tool::Python, Tool::Node],
+        installer: None,
+        ..reader(
+            "extension",
+            "packages of the extension for VS Code",
+            Tier::Long("downloads a packager; the gate reads the extension and runs its server in Neovim"),
+            readers::extension,
         )
     },
     Part {

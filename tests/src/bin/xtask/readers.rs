@@ -231,6 +231,21 @@ pub(crate) fn language_server(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(command.args(SPECS.map(|stem| format!("od-spec/devices/{stem}.od.yaml"))))
 }
 
+/// What a user does in Neovim with `odgen lsp`.
+pub(crate) fn editors(runner: &mut Runner) -> Result<(), Failure> {
+    if python_of_readers(runner).is_none() {
+        return Ok(());
+    }
+    let editor = root().join(VENV).join("bin/nvim");
+    runner.run(Command::new(editor).args(["-l", "tests/editors/neovim.lua"]).arg(beside("odgen")?))
+}
+
+/// The extension for VS Code as a package.
+pub(crate) fn extension(runner: &mut Runner) -> Result<(), Failure> {
+    let odgen = beside("odgen")?;
+    runner.run(Command::new("python3").args(["tests/editors/package.py", "--odgen"]).arg(odgen))
+}
+
 /// A client that others wrote, against the generated Rust, and as the master of virtual nodes; and the client of firmware-glue
 /// and `odgen node` against a server that others wrote.
 pub(crate) fn sdo_client(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {

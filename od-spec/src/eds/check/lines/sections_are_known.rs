@@ -31,12 +31,23 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
 /// What is said about a name.
 struct Message {
     text: String,
-    help: String,
+    help: Help,
+}
+
+/// What to do about it.
+enum Help {
+    /// Write this name.
+    Word(String),
+    Text(&'static str),
 }
 
 impl Message {
     fn at(self, place: crate::source::Span) -> Diagnostic {
-        Diagnostic::new(CODE, place, self.text).help(self.help)
+        let diagnostic = Diagnostic::new(CODE, place, self.text);
+        match self.help {
+            Help::Word(word) => diagnostic.did_you_mean(&word),
+            Help::Text(text) => diagnostic.help(text),
+        }
     }
 }
 
@@ -46,10 +57,10 @@ fn message(name: &str) -> Message {
     let is_number = name.len() > 4 && name.bytes().all(|byte| byte.is_ascii_hexdigit());
     let text = format!("`{}` is not a section of the standard", shorten(name));
     let help = match nearest(name, known.iter().map(String::as_str)) {
-        Some(meant) => format!("did you mean `{meant}`?"),
-        None if is_number => "an index has four hexadecimal digits".to_owned(),
+        Some(meant) => Help::Word(meant.to_owned()),
+        None if is_number => Help::Text("an index has four hexadecimal digits"),
         None => {
-            "nothing to do if the tools that read the file know it; otherwise make it comments".to_owned()
+            Help::Text("nothing to do if the tools that read the file know it; otherwise make it comments")
         }
     };
     Message { text, help }

@@ -49,12 +49,9 @@ pub(super) fn report<'v, 'd: 'v>(
         let times = if times > 1 { format!("; it is written {times} times") } else { String::new() };
         let message = format!("`{}` is not a key of the standard {here}{times}", shorten(name));
         let meant = diagnostics.suggestions.nearest(name, known.names());
-        diagnostics.push(
-            Diagnostic::new(code, place, message).help(match meant {
-                Some(meant) => format!("did you mean `{meant}`?"),
-                None => "nothing to do if the tools that read the file know it; otherwise make it a comment"
-                    .to_owned(),
-            }),
-        );
+        let otherwise = || {
+            "nothing to do if the tools that read the file know it; otherwise make it a comment".to_owned()
+        };
+        diagnostics.push(Diagnostic::new(code, place, message).did_you_mean_or(meant, otherwise));
     }
 }

@@ -1,0 +1,220 @@
+// Starts `odgen lsp` when the first document for it is open, and runs `odgen` for the commands.
+"use strict";
+
+const { execFile } = require("child_process");
+const fs = require("fs");
+const os = require("os");
+const path = require("path");
+const { commands, env, Location, Position, Range, Uri, ViewColumn, window, workspace } = require("vscode");
+const { isOurs } = require("./content");
+
+let client;
+let starting;
+let hasComplained = false;
+
+const isForUs = (document) => isOurs(document.languageId, document.fileName, () => document.getText());
+
+/** The program: what the settings name, or that of the extension, which a platform's package has. */
+function program(context) {
+  const set = workspace.getConfiguration("odgen").get("path") || "odgen";
+  const name = process.platform === "win32" ? "odgen.exe" : "odgen";
+  const bundled = context.asAbsolutePath(path.join("bin", name));
+  return set === "odgen" && fs.existsSync(bundled) ? bundled : set;
+}
+
+/** Runs odgen; the output, or an error with what it printed. */
+function run(context, args, cwd) {
+  return new Promise((resolve, reject) => {
+    execFile(program(context), args, { cwd, maxBuffer: 1 << 26 }, (error, stdout, stderr) => {
+      if (error && error.code === "ENOENT") {
+        reject(Object.assign(new Error("not found"), { isMissing: true }));
+      } else if (error) {
+        reject(Object.assign(new Error(stderr.trim() || stdout.trim() || error.message), { code: error.code, stdout }));
+      } else {
+        resolve(stdout);
+      }
+    });
+  });
+}
+
+/** One message with a way out. */
+async function complain(context) {
+  if (hasComplained) {
+    return;
+  }
+  hasComplained = true;
+  const text = `The program "${program(context)}" was not found. Install it with "cargo install odgen", or set its path.`;
+  const choice = await window.showErrorMessage(text, "Open Settings", "Copy Install Command");
+  if (choice === "Open Settings") {
+    await commands.executeCommand("workbench.action.openSettings", "odgen.path");
+  } else if (choice === "Copy Install Command") {
+    await env.clipboard.writeText("cargo install odgen");
+  }
+}
+
+async function start(context) {
+  try {
+    await run(context, ["--version"]);
+  } catch {
+    complain(context);
+    return;
+  }
+  // Only now: a workspace without CANopen never loads it.
+  const { LanguageClient } = require("vscode-languageclient/node");
+  const documentSelector = ["yaml", "canopen-eds", "canopen-xdd"].flatMap((language) => [
+    { language, scheme: "file" },
+    { language, scheme: "untitled" },
+  ]);
+  client = new LanguageClient(
+    "odgen",
+    "odgen",
+    { command: program(context), args: ["lsp"] },
+    {
+      documentSelector,
+      initializationOptions: {
+        inlayHints: workspace.getConfiguration("odgen").get("hints"),
+        suggestNext: "editor.action.triggerSuggest",
+        showPlaces: "odgen.showPlaces",
+      },
+    },
+  );
+  await client.start();
+}
+
+/** Starts the server for the first document that needs it. */
+async function look(context, document) {
+  if (!client && !starting && isForUs(document)) {
+    starting = start(context);
+    await starting;
+    starting = undefined;
+  }
+}
+
+async function restart(context) {
+  await client?.stop();
+  client = undefined;
+  hasComplained = false;
+  for (const document of workspace.textDocuments) {
+    await look(context, document);
+  }
+}
+
+/** The file of the active editor, saved. */
+async function active() {
+  const document = window.activeTextEditor?.document;
+  if (!document || document.uri.scheme !== "file" || !isForUs(document)) {
+    window.showInformationMessage("Open a specification, an EDS, a DCF, an XDD or an XDC first.");
+    return undefined;
+  }
+  await document.save();
+  return document.fileName;
+}
+
+/** Does something with odgen; what it refuses is shown. */
+async function attempt(context, action) {
+  const file = await active();
+  if (!file) {
+    return;
+  }
+  try {
+    await action(file);
+  } catch (error) {
+    if (error.isMissing) {
+      complain(context);
+    } else {
+      window.showErrorMessage(error.message.split("\n")[0]);
+    }
+  }
+}
+
+/** All files below a folder. */
+function below(folder) {
+  return fs.readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
+    const full = path.join(folder, entry.name);
+    return entry.isDirectory() ? below(full) : [full];
+  });
+}
+
+/** Builds into a folder that is thrown away, and shows one of the files. */
+async function preview(context, args, extension, show) {
+  await attempt(context, async (file) => {
+    const folder = fs.mkdtempSync(path.join(os.tmpdir(), "odgen-"));
+    await run(context, ["build", ...args, "--out", folder, file], path.dirname(file));
+    const files = below(folder).filter((one) => one.endsWith(extension));
+    const names = files.map((one) => path.basename(one));
+    const name = names.length > 1 ? await window.showQuickPick(names) : names[0];
+    if (name) {
+      await show(files[names.indexOf(name)]);
+    }
+  });
+}
+
+const beside = async (file) => {
+  const document = await workspace.openTextDocument(Uri.file(file));
+  await window.showTextDocument(document, { viewColumn: ViewColumn.Beside, preview: true });
+};
+
+const page = async (file) => {
+  const panel = window.createWebviewPanel("odgen.page", path.basename(file), ViewColumn.Beside, { enableScripts: true });
+  panel.webview.html = fs.readFileSync(file, "utf8");
+};
+
+async function diff(context) {
+  await attempt(context, async (file) => {
+    const filters = { "Specifications, EDS, DCF, XDD, XDC": ["yaml", "eds", "dcf", "xdd", "xdc"] };
+    const chosen = await window.showOpenDialog({ title: "The earlier version", canSelectMany: false, filters });
+    if (!chosen) {
+      return;
+    }
+    // Exit code 1 reports a difference.
+    const text = await run(context, ["diff", chosen[0].fsPath, file]).catch((error) => {
+      if (error.code === 1 && error.stdout) {
+        return error.stdout;
+      }
+      throw error;
+    });
+    const document = await workspace.openTextDocument({ content: text, language: "plaintext" });
+    await window.showTextDocument(document, { viewColumn: ViewColumn.Beside, preview: true });
+  });
+}
+
+async function build(context) {
+  await attempt(context, async (file) => {
+    const text = await run(context, ["build", file], path.dirname(file));
+    window.showInformationMessage(text.trim().split("\n").pop() || "The files are up to date.");
+  });
+}
+
+/** The places that a lens counts: from the protocol's form to that of the editor. */
+function showPlaces(uri, position, places) {
+  const at = ({ line, character }) => new Position(line, character);
+  const locations = places.map(
+    ({ uri, range }) => new Location(Uri.parse(uri), new Range(at(range.start), at(range.end))),
+  );
+  return commands.executeCommand("editor.action.showReferences", Uri.parse(uri), at(position), locations);
+}
+
+exports.activate = async (context) => {
+  const command = (name, action) => context.subscriptions.push(commands.registerCommand(name, action));
+  command("odgen.build", () => build(context));
+  command("odgen.previewEds", () => preview(context, [], ".eds", beside));
+  command("odgen.previewRust", () => preview(context, ["--rust"], ".rs", beside));
+  command("odgen.previewPage", () => preview(context, ["--docs", "html"], ".html", page));
+  command("odgen.diff", () => diff(context));
+  command("odgen.restart", () => restart(context));
+  command("odgen.showPlaces", showPlaces);
+  const mark = (editor) =>
+    commands.executeCommand("setContext", "odgen.isOurs", Boolean(editor && isForUs(editor.document)));
+  context.subscriptions.push(
+    workspace.onDidOpenTextDocument((document) => look(context, document)),
+    workspace.onDidSaveTextDocument((document) => look(context, document)),
+    workspace.onDidChangeConfiguration((event) => event.affectsConfiguration("odgen") && restart(context)),
+    window.onDidChangeActiveTextEditor(mark),
+  );
+  mark(window.activeTextEditor);
+  for (const document of workspace.textDocuments) {
+    await look(context, document);
+  }
+};
+
+exports.deactivate = () => client?.stop();

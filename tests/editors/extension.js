@@ -1,0 +1,110 @@
+// The extension for VS Code with an editor that only pretends: when it starts the server, and what it shows if there is no program.
+"use strict";
+
+const assert = require("assert");
+const Module = require("module");
+const path = require("path");
+
+const FOLDER = path.resolve(__dirname, "../../od-gen/lsp/vscode");
+
+/** An editor with documents and a program; what the extension did. */
+function session(documents, program) {
+  const seen = { messages: [], started: 0, commands: {}, opened: undefined };
+  class LanguageClient {
+    constructor(id, name, server, options) {
+      seen.server = server;
+      seen.options = options;
+    }
+    async start() {
+      seen.started += 1;
+    }
+    async stop() {}
+  }
+  const event = (listener) => ({ dispose() {}, listener });
+  const vscode = {
+    commands: {
+      registerCommand: (name, action) => {
+        seen.commands[name] = action;
+        return { dispose() {} };
+      },
+      executeCommand: async () => undefined,
+    },
+    env: {},
+    Location: class {},
+    Position: class {},
+    Range: class {},
+    Uri: { parse: (text) => text, file: (text) => text },
+    ViewColumn: { Beside: 2 },
+    window: {
+      activeTextEditor: undefined,
+      onDidChangeActiveTextEditor: event,
+      showErrorMessage: async (text, ...choices) => {
+        seen.messages.push({ text, choices });
+      },
+      showInformationMessage: async () => undefined,
+    },
+    workspace: {
+      textDocuments: documents,
+      getConfiguration: () => ({ get: (key) => ({ path: program, hints: ["raw-values"] })[key] }),
+      onDidOpenTextDocument: (listener) => {
+        seen.opened = listener;
+        return { dispose() {} };
+      },
+      onDidSaveTextDocument: event,
+      onDidChangeConfiguration: event,
+    },
+  };
+  const load = Module._load;
+  Module._load = (name, ...rest) => {
+    const fakes = { vscode, "vscode-languageclient/node": { LanguageClient } };
+    return fakes[name] ?? load(name, ...rest);
+  };
+  const file = path.join(FOLDER, "extension.js");
+  delete require.cache[file];
+  const extension = require(file);
+  const context = { subscriptions: [], asAbsolutePath: (name) => path.join(FOLDER, name) };
+  return { seen, started: extension.activate(context).finally(() => (Module._load = load)) };
+}
+
+const document = (languageId, fileName, text) => ({ languageId, fileName, getText: () => text });
+const foreign = document("yaml", "compose.yaml", "services: {}\n");
+const plant = document("yaml", "farm.yaml", "# A farm\nod-plant: 1\n");
+
+(async () => {
+  // A program that runs and takes `--version`: this one.
+  const node = process.execPath;
+
+  let { seen, started } = session([foreign], node);
+  await started;
+  assert.deepStrictEqual([seen.started, seen.messages], [0, []], "foreign YAML starts nothing");
+
+  ({ seen, started } = session([foreign, plant], node));
+  await started;
+  assert.strictEqual(seen.started, 1, "a plant starts the server, whatever it is called");
+  assert.deepStrictEqual(seen.server, { command: node, args: ["lsp"] });
+  assert.deepStrictEqual(seen.options.initializationOptions.inlayHints, ["raw-values"]);
+
+  ({ seen, started } = session([document("canopen-eds", "a.eds", "")], node));
+  await started;
+  assert.strictEqual(seen.started, 1, "an EDS starts it");
+
+  ({ seen, started } = session([foreign], "no-such-program"));
+  await started;
+  assert.deepStrictEqual(seen.messages, [], "without the program, foreign YAML has no message");
+  ({ seen, started } = session([plant, plant], "no-such-program"));
+  await started;
+  await seen.opened(plant);
+  assert.strictEqual(seen.messages.length, 1, "one message");
+  assert.match(seen.messages[0].text, /"no-such-program" was not found/);
+  assert.deepStrictEqual(seen.messages[0].choices, ["Open Settings", "Copy Install Command"]);
+  assert.strictEqual(seen.started, 0);
+
+  const manifest = require(path.join(FOLDER, "package.json"));
+  for (const { command } of manifest.contributes.commands) {
+    assert.ok(seen.commands[command], `nothing runs ${command}`);
+  }
+  console.log("7 passed, 0 failed: the extension for VS Code");
+})().catch((error) => {
+  console.error(error.message);
+  process.exit(1);
+});
