@@ -91,32 +91,34 @@ pub struct Page {
     pub text: String,
 }
 
-/// What is wrong with a template.
+/// Why a set of templates cannot be printed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TemplateError {
-    /// Name of the template's file; empty where no single one is wrong.
-    pub template: String,
-    /// The template.
-    pub source: String,
-    /// The place in it.
-    pub range: Range<usize>,
-    /// What is wrong there.
-    pub message: String,
-}
-
-impl TemplateError {
-    /// A mistake of the set, not of a single template.
-    fn without_place(message: impl Into<String>) -> Self {
-        Self { template: String::new(), source: String::new(), range: 0..0, message: message.into() }
-    }
+pub enum TemplateError {
+    /// A template is wrong.
+    InTemplate {
+        /// Name of the template's file.
+        template: String,
+        /// The template.
+        source: String,
+        /// The place in it.
+        range: Range<usize>,
+        /// What is wrong there.
+        message: String,
+    },
+    /// The names of all templates begin with `_`.
+    NothingIsPrinted,
+    /// Two pages would have one name, such as that of a device and that of another template.
+    SamePage(String),
 }
 
 impl fmt::Display for TemplateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.template.is_empty() {
-            f.write_str(&self.message)
-        } else {
-            write!(f, "{}: {}", self.template, self.message)
+        match self {
+            Self::InTemplate { template, message, .. } => write!(f, "{template}: {message}"),
+            Self::NothingIsPrinted => f.write_str("no template is printed: the names of all begin with `_`"),
+            Self::SamePage(path) => {
+                write!(f, "two pages would be {path}: a device has the name of another page as its key")
+            }
         }
     }
 }
@@ -165,9 +167,7 @@ impl Templates {
         };
         let mut wanted: Vec<(&str, String, Value)> = Vec::new();
         if self.files.keys().all(|name| name.starts_with('_')) {
-            return Err(TemplateError::without_place(
-                "no template is printed: the names of all begin with `_`",
-            ));
+            return Err(TemplateError::NothingIsPrinted);
         }
         for name in self.files.keys().filter(|name| !name.starts_with('_')) {
             let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
@@ -193,10 +193,7 @@ impl Templates {
         let pages = self.pages(&wanted, bounds::steps(context))?;
         let mut seen = BTreeSet::new();
         if let Some(twice) = pages.iter().find(|page| !seen.insert(page.path.to_lowercase())) {
-            return Err(TemplateError::without_place(format!(
-                "two pages would be {}: a device has the name of another page as its key",
-                twice.path
-            )));
+            return Err(TemplateError::SamePage(twice.path.clone()));
         }
         Ok(pages)
     }
@@ -257,7 +254,7 @@ impl Templates {
             Some(detail) => format!("{}: {detail}", inner.kind()),
             None => inner.kind().to_string(),
         };
-        TemplateError { template: name, source, range, message }
+        TemplateError::InTemplate { template: name, source, range, message }
     }
 }
 

@@ -7,6 +7,7 @@ mod interrupt;
 mod language;
 mod link;
 mod listing;
+mod memory;
 mod messages;
 mod modules;
 mod output;

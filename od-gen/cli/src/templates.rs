@@ -9,6 +9,7 @@ use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::source::SourceMap;
 
 use crate::exit::ERRORS;
+use crate::memory;
 use crate::report::Report;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -31,6 +32,22 @@ impl From<DocsFormat> for od_documents::Format {
     }
 }
 
+/// Bytes that a user's templates may take. The pages of a device with 100,000 entries need a tenth of it.
+const MEMORY: usize = 2 << 30;
+
+/// Prints pages with a user's own templates. If they take more memory than pages can need, the command ends with a message
+/// before anything is written.
+pub(crate) fn printed<T>(report: &Report, print: impl FnOnce() -> T) -> T {
+    let exceeded = || {
+        let message = format!("the templates take more than {} GiB of memory", MEMORY >> 30);
+        let help = "look for a text or list that a loop or macro makes longer at every step";
+        std::process::exit(
+            report.refuse(Diagnostic::without_place(codes::BAD_TEMPLATE, message).help(help)).into(),
+        );
+    };
+    memory::limited(MEMORY, exceeded, print)
+}
+
 /// Why there are no templates.
 pub(crate) enum Problem {
     /// A file or directory cannot be read.
@@ -46,28 +63,35 @@ impl Problem {
                 Diagnostic::without_place(codes::UNREADABLE, message)
                     .help("`odgen docs --export-templates DIR` writes templates to start from"),
             ),
-            Problem::Template(error, _) if error.template.is_empty() => report.refuse(
-                Diagnostic::without_place(codes::BAD_TEMPLATE, error.message)
-                    .help("give the device another key, or the template of devices another extension"),
-            ),
             Problem::Template(error, directory) => {
-                let replaced =
-                    directory.map(|directory| directory.join(&error.template)).filter(|path| path.exists());
-                let name = replaced.map_or_else(
-                    || format!("(built-in) {}", error.template),
-                    |path| path.display().to_string(),
-                );
-                let mut sources = SourceMap::new();
-                let file = sources.add(name, error.source);
-                let mut diagnostics = Diagnostics::new();
-                let span = sources.whole(file);
-                let (start, end) = (error.range.start, error.range.end);
-                diagnostics.push(
-                    Diagnostic::new(codes::BAD_TEMPLATE, span.part(start, end.max(start + 1)), error.message)
-                        .help("`odgen docs --dump-context` prints what templates see"),
-                );
-                report.show(&diagnostics, &sources);
-                ERRORS
+                let message = error.to_string();
+                let of_set =
+                    |help| report.refuse(Diagnostic::without_place(codes::BAD_TEMPLATE, message).help(help));
+                match error {
+                    TemplateError::InTemplate { template, source, range, message } => {
+                        let replaced = directory.map(|own| own.join(&template)).filter(|path| path.exists());
+                        let name = replaced.map_or_else(
+                            || format!("(built-in) {template}"),
+                            |path| path.display().to_string(),
+                        );
+                        let mut sources = SourceMap::new();
+                        let file = sources.add(name, source);
+                        let span = sources.whole(file).part(range.start, range.end.max(range.start + 1));
+                        let mut diagnostics = Diagnostics::new();
+                        diagnostics.push(
+                            Diagnostic::new(codes::BAD_TEMPLATE, span, message)
+                                .help("`odgen docs --dump-context` prints what templates see"),
+                        );
+                        report.show(&diagnostics, &sources);
+                        ERRORS
+                    }
+                    TemplateError::NothingIsPrinted => {
+                        of_set("name a template without `_` at its beginning: it is printed under its name")
+                    }
+                    TemplateError::SamePage(_) => {
+                        of_set("give the device another key, or the template of devices another extension")
+                    }
+                }
             }
         }
     }

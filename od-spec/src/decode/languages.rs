@@ -2,20 +2,21 @@
 //! language is shown in another.
 
 use super::shape::named_once;
-use super::texts;
+use super::texts::WrittenText;
 use crate::ast::Untranslated;
 use crate::diag::{Diagnostic, Diagnostics, Repeated, codes, shorten};
-use crate::keys::Keys;
 use crate::source::Spanned;
 use crate::yaml::{Node, NodeKind};
 
 /// Checks that texts are in the languages that are listed; without `languages:`, in English.
-pub(super) fn check(root: &Node, keys: &Keys, diagnostics: &mut Diagnostics) {
+pub(super) fn check(root: &Node, texts: &[WrittenText<'_>], diagnostics: &mut Diagnostics) {
     named_once(root.get("languages").map(Node::items).unwrap_or_default(), diagnostics);
     let listed = listed(root);
     let names: Vec<&str> =
         if listed.is_empty() { vec!["en"] } else { listed.iter().map(|name| name.value).collect() };
-    texts::each(root, keys, &mut |node| unlisted(node, &names, diagnostics));
+    for text in texts {
+        unlisted(text.node, &names, diagnostics);
+    }
 }
 
 /// The languages that are listed.
@@ -24,7 +25,11 @@ fn listed(root: &Node) -> Vec<Spanned<&str>> {
 }
 
 /// The texts that lack a language, and says how many there are of each.
-pub(super) fn untranslated(root: &Node, keys: &Keys, diagnostics: &mut Diagnostics) -> Vec<Untranslated> {
+pub(super) fn untranslated(
+    root: &Node,
+    texts: &[WrittenText<'_>],
+    diagnostics: &mut Diagnostics,
+) -> Vec<Untranslated> {
     let (mut found, listed) = (Vec::new(), listed(root));
     let is_listed = |name: &str| listed.iter().any(|one| one.value == name);
     for (at, language) in listed.iter().enumerate() {
@@ -33,18 +38,18 @@ pub(super) fn untranslated(root: &Node, keys: &Keys, diagnostics: &mut Diagnosti
         }
         let mut incomplete = Repeated::new();
         let mut plain = 0;
-        texts::each(root, keys, &mut |node| {
+        for WrittenText { node, .. } in texts {
             let place = match &node.kind {
                 NodeKind::Map(entries) => {
                     // One that is misspelt is reported as that.
                     if !entries.iter().all(|(name, _)| is_listed(&name.value)) {
-                        return;
+                        continue;
                     }
                     let text = entries.iter().find(|(name, _)| name.value == language.value);
                     let (place, fault) = match text {
                         None => (node.span, "is missing"),
                         Some((_, node)) if is_empty(node) => (node.span, "is empty"),
-                        Some(_) => return,
+                        Some(_) => continue,
                     };
                     let message = format!("`{}`, which `languages:` lists, {fault}", language.value);
                     incomplete.add(place, [], || {
@@ -58,10 +63,10 @@ pub(super) fn untranslated(root: &Node, keys: &Keys, diagnostics: &mut Diagnosti
                     plain += 1;
                     node.span
                 }
-                _ => return,
+                _ => continue,
             };
             found.push(Untranslated { place, language: language.value.to_owned() });
-        });
+        }
         incomplete.finish("texts", diagnostics);
         if plain > 0 {
             let texts = if plain == 1 { "text is" } else { "texts are" };

@@ -47,13 +47,14 @@ pub(crate) fn check_shape(node: &Node, shape: Shape, diagnostics: &mut Diagnosti
 /// Reads a specification whose files were checked, or a library of one that shows some languages; without any, texts stay
 /// in all of theirs.
 pub(crate) fn read(root: &Node, shown: &[String], diagnostics: &mut Diagnostics) -> Spec {
-    languages::check(root, &keys::SPEC, diagnostics);
+    let texts = texts::all(root, &keys::SPEC);
+    languages::check(root, &texts, diagnostics);
     let spec = spec::read(root, shown, diagnostics);
     if !shown.is_empty() {
         return spec;
     }
-    let untranslated = languages::untranslated(root, &keys::SPEC, diagnostics);
-    Spec { untranslated, mentions: named::read(root, &keys::SPEC), ..spec }
+    let untranslated = languages::untranslated(root, &texts, diagnostics);
+    Spec { untranslated, mentions: named::read(&texts), ..spec }
 }
 
 /// [`check`], then [`read()`]: a file without parts.

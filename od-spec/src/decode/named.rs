@@ -2,15 +2,14 @@
 
 use std::sync::LazyLock;
 
-use super::texts;
+use super::texts::WrittenText;
 use crate::ast::{Named, TextMention};
-use crate::keys::Keys;
 use crate::running_text::{indices, mentions};
 use crate::source::Span;
 use crate::wording::Language;
 use crate::yaml::{Node, NodeKind};
 
-/// Keys whose texts are about what other issues of the manual print.
+/// Parts whose texts are about what other issues of the manual print.
 const ABOUT_OTHER_ISSUES: [&str; 4] = ["errata", "history", "revision", "source"];
 
 /// What stands before an object that is meant, in small letters.
@@ -18,14 +17,10 @@ static POINTERS: LazyLock<Vec<&str>> =
     LazyLock::new(|| ["see", "object", "objects"].into_iter().flat_map(Language::words_of_all).collect());
 
 /// What the texts of a specification name, in the order of its keys.
-pub(super) fn read(root: &Node, keys: &Keys) -> Vec<TextMention> {
+pub(super) fn read(texts: &[WrittenText<'_>]) -> Vec<TextMention> {
     let mut found = Vec::new();
-    for (name, value) in root.entries() {
-        if !ABOUT_OTHER_ISSUES.contains(&name.value.as_str())
-            && let Some(key) = keys.get(&name.value)
-        {
-            texts::each_in(value, key.shape, &mut |node| in_text(node, &mut found));
-        }
+    for text in texts.iter().filter(|text| !ABOUT_OTHER_ISSUES.contains(&text.part)) {
+        in_text(text.node, &mut found);
     }
     found
 }

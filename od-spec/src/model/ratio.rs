@@ -22,6 +22,9 @@ impl Ratio {
         if denominator == 0 || numerator == i128::MIN || denominator == i128::MIN {
             return None;
         }
+        if denominator == 1 {
+            return Some(Self::whole(numerator));
+        }
         let divisor = gcd(numerator.unsigned_abs(), denominator.unsigned_abs());
         let divisor = i128::try_from(divisor).ok()?.max(1) * denominator.signum();
         Some(Self { numerator: numerator / divisor, denominator: denominator / divisor })

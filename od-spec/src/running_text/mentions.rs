@@ -78,15 +78,9 @@ static OTHERS: LazyLock<Vec<&str>> = LazyLock::new(|| Language::words_of_all("ot
 /// The numbers in a text that are not those of another document, in order.
 pub fn mentions(text: &str) -> Vec<Mention<'_>> {
     let mut found = Vec::new();
-    if !text.bytes().any(|sign| sign.is_ascii_digit()) {
-        return found;
-    }
-    for (at, space) in text.match_indices([' ', '\u{a0}']) {
-        if !may_be_number(&text[at + space.len()..]) {
-            continue;
-        }
+    for (at, start) in number_places(text) {
         let Some((noun, kind, count)) = noun_before(text, at) else { continue };
-        let Some(first) = number_at(text, at + space.len(), kind) else { continue };
+        let Some(first) = number_at(text, start, kind) else { continue };
         let mut numbers = vec![first];
         if count != Count::One {
             while let Some(next) = next_number(text, numbers[numbers.len() - 1].end, kind, count) {
@@ -104,6 +98,18 @@ pub fn mentions(text: &str) -> Vec<Mention<'_>> {
         }
     }
     found
+}
+
+/// Where a number may begin after a space, each with the start of the space.
+fn number_places(text: &str) -> impl Iterator<Item = (usize, usize)> {
+    // Both spaces end with one of two bytes, and most words begin with a lower-case letter.
+    let pairs = text.as_bytes().windows(2).zip(1..);
+    pairs.filter(|(pair, _)| matches!(pair, [b' ' | 0xA0, b'0'..=b'9' | b'A'..=b'Z'])).filter_map(
+        |(_, start)| {
+            let space = text[..start].chars().next_back().filter(|c| matches!(c, ' ' | '\u{a0}'))?;
+            may_be_number(&text[start..]).then(|| (start - space.len_utf8(), start))
+        },
+    )
 }
 
 /// The noun that ends at a place: where it begins, and what it names.

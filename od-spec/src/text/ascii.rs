@@ -35,7 +35,8 @@ pub fn in_ascii(text: &str) -> Cow<'_, str> {
 ///
 /// Those that turn the text around them are refused for that.
 pub fn has_lost(text: &str) -> bool {
-    in_ascii(text).matches('?').count() > text.matches('?').count() + turning(text).count()
+    !is_printable(text)
+        && in_ascii(text).matches('?').count() > text.matches('?').count() + turning(text).count()
 }
 
 /// Whether [`transliterate`] leaves nothing of a name but `?`.

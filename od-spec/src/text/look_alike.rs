@@ -40,7 +40,7 @@ pub(crate) fn disguised(text: &str) -> Vec<Disguised<'_>> {
     let is_of_word = |c: char| c.is_alphanumeric() || is_invisible(c);
     let mut found = Vec::new();
     let mut at = 0;
-    while let Some(next) = text[at..].find(|c: char| !c.is_ascii()) {
+    while let Some(next) = text.as_bytes()[at..].iter().position(|byte| !byte.is_ascii()) {
         let here = at + next;
         let start = at + text[at..here].trim_end_matches(is_of_word).len();
         let length = text[here..].trim_start_matches(is_of_word).len();

@@ -68,7 +68,9 @@ impl Subject for TemplateFiles {
 
 /// A mistake is told in words, with a place in the template.
 fn complaint(error: &TemplateError) -> Option<String> {
-    let TemplateError { template, source, range, message } = error;
+    let TemplateError::InTemplate { template, source, range, message } = error else {
+        return Some(format!("`{error}` has no place"));
+    };
     let has_place = source.get(range.clone()).is_some();
     if template.is_empty() || !has_place {
         Some(format!("`{message}` has no place"))
@@ -87,11 +89,13 @@ mod tests {
     fn a_mistake_has_a_place_and_a_text() {
         let error = |template: &str, range, message: &str| {
             let (template, source) = (template.to_owned(), "ä".to_owned());
-            complaint(&TemplateError { template, source, range, message: message.to_owned() })
+            complaint(&TemplateError::InTemplate { template, source, range, message: message.to_owned() })
         };
         assert_eq!(error("a.md", 0..2, "wrong"), None);
         assert_eq!(error("a.md", 0..1, "wrong").as_deref(), Some("`wrong` has no place"));
         assert_eq!(error("", 0..2, "wrong").as_deref(), Some("`wrong` has no place"));
+        let of_set = complaint(&TemplateError::SamePage("a.md".to_owned()));
+        assert!(of_set.is_some_and(|what| what.ends_with("has no place")));
         assert_eq!(error("a.md", 0..2, "a\nb").as_deref(), Some("`a\\nb` says nothing"));
     }
 

@@ -16,7 +16,7 @@ use crate::output::{clash, forced, write};
 use crate::report::{Report, print_json};
 use crate::specs::{self, stem};
 use crate::templates::DocsFormat;
-use crate::templates::{Problem, templates};
+use crate::templates::{Problem, printed, templates};
 
 #[derive(Debug, Clone, Args)]
 pub(crate) struct DocsArgs {
@@ -97,17 +97,24 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
         Ok(templates) => templates,
         Err(problem) => return problem.show(report),
     };
-    let mut set = Vec::new();
-    let shows = |system: &System| {
+    let shows = |(_, system): &&(String, System)| {
         args.device.is_empty() || args.device.iter().any(|key| system.device(key).is_some())
     };
-    for (stem, system) in systems.iter().filter(|(_, system)| shows(system)) {
-        let options = options(system, &args);
-        match docs::artifacts(system, "", stem, &options, &templates) {
-            Ok(artifacts) => set.extend(artifacts),
-            Err(error) => return Problem::Template(error, args.templates.clone()).show(report),
-        }
-    }
+    let print = || {
+        let sets = systems
+            .iter()
+            .filter(shows)
+            .map(|(stem, system)| docs::artifacts(system, "", stem, &options(system, &args), &templates));
+        sets.collect::<Result<Vec<_>, _>>().map(|sets| sets.concat())
+    };
+    let set = match &args.templates {
+        Some(_) => printed(report, print),
+        None => print(),
+    };
+    let set = match set {
+        Ok(set) => set,
+        Err(error) => return Problem::Template(error, args.templates.clone()).show(report),
+    };
     if let Some(what) = clash(&set, "specifications") {
         return report.refuse(
             Diagnostic::without_place(rule_codes::DUPLICATE_NAME, what)

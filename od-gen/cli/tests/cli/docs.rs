@@ -79,6 +79,9 @@ fn templates_without_end_are_stopped() {
         "{% macro f(n) %}{{ f(n + 1) }}{{ f(n + 1) }}{% endmacro %}{{ f(0) }}".to_owned(),
         format!("{thousand}{{{{ 'x' * 1000000 }}}}{ends}"),
         format!("{thousand}{}{ends}", "x".repeat(10_000)),
+        // Few steps, and 8 GiB of memory.
+        "{% set all = namespace(text='x') %}{% for _ in range(33) %}{% set all.text = all.text ~ all.text %}{% endfor %}"
+            .to_owned(),
     ] {
         scratch.file("own/device.txt", &template);
         let output = odgen(
@@ -90,6 +93,18 @@ fn templates_without_end_are_stopped() {
     }
     assert_snapshot!(said);
     assert!(!scratch.0.join("out").exists());
+}
+
+/// A set of which nothing would be printed says how to name a template.
+#[test]
+fn a_set_of_parts_only_is_refused() {
+    let scratch = Scratch::new("parts-only");
+    scratch.file("lamp.od.yaml", LAMP);
+    fs::create_dir(scratch.0.join("own")).unwrap();
+    scratch.file("own/_part.txt", "part");
+    let output = odgen(&scratch.0, &["--format", "short", "docs", "lamp.od.yaml", "--templates", "own"]);
+    assert_eq!((code(&output), stdout(&output)), (1, String::new()));
+    assert_snapshot!(stderr(&output));
 }
 
 /// File systems take names of 255 bytes.

@@ -157,7 +157,12 @@ fn for_writing(subject: &Subject<'_>, findings: &mut Findings) {
         .filter_map(|(id, entry, _)| Some((*id, entry.default.as_ref().and_then(Value::integer)?)));
     knowledge.kept = kept.collect();
     loop {
-        let free = |(_, _, condition): &(_, _, &Expr)| knowledge.verdict(condition) != Verdict::Never;
+        let names_kept = |condition: &Expr| {
+            condition.entries().into_iter().any(|named| knowledge.kept.contains_key(&named.id))
+        };
+        let free = |(_, _, condition): &(_, _, &Expr)| {
+            !names_kept(condition) || knowledge.verdict(condition) != Verdict::Never
+        };
         let opened: Vec<EntryId> = waiting.iter().filter(|one| free(one)).map(|(id, ..)| *id).collect();
         if opened.is_empty() {
             break;

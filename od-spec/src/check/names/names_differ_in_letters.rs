@@ -78,6 +78,9 @@ impl Lists<'_> {
         {
             units.extend(entry.unit.as_deref().map(|unit| (unit.name.as_str(), unit.stated.span)));
             types.extend(entry.named_type.as_deref().map(|named| (named.name.as_str(), named)));
+            if entry.special.is_empty() {
+                continue;
+            }
             for special in &entry.special {
                 specials.entry(&special.name).or_insert(special.place.span);
             }
@@ -160,13 +163,13 @@ impl Lists<'_> {
         if names.len() < 2 {
             return;
         }
-        let mut alike: BTreeMap<String, Vec<Named<'_>>> = BTreeMap::new();
-        for named in names {
-            alike.entry(letters(named.0)).or_default().push(named);
-        }
-        for (letters, mut group) in alike {
+        let mut names: Vec<(String, Named<'_>)> =
+            names.into_iter().map(|named| (letters(named.0), named)).collect();
+        names.sort_by(|(one, _), (other, _)| one.cmp(other));
+        for alike in names.chunk_by(|(one, _), (other, _)| one == other).filter(|alike| alike.len() > 1) {
+            let mut group: Vec<Named<'_>> = alike.iter().map(|(_, named)| *named).collect();
             // What has no letter at all has signs that people can tell apart.
-            if group.len() < 2 || letters.is_empty() && group.windows(2).all(|two| two[0].0 != two[1].0) {
+            if alike[0].0.is_empty() && group.windows(2).all(|two| two[0].0 != two[1].0) {
                 continue;
             }
             group.sort_by_key(|(_, place)| (!place.file.is_one_with(device.span.file), *place));
