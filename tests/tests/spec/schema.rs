@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use jsonschema::Validator;
 use od_reference::Page;
-use od_spec::diag::{Diagnostics, codes};
+use od_spec::diag::Diagnostics;
 use od_spec::keys::{ENTRY, Need};
 use od_spec::plant::plant;
 use od_spec::source::SourceMap;
