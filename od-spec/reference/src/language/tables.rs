@@ -67,12 +67,11 @@ fn required(key: &Key, keys: &Keys) -> &'static str {
     }
 }
 
-/// How keys depend on each other.
+/// How keys depend on each other. Of many, only their rows name them.
 fn sentence(choice: Choice) -> String {
-    let names = match choice.keys() {
-        keys @ ([] | [_] | [_, _] | [_, _, _] | [_, _, _, _]) => joined(keys, "and"),
-        _ => "the keys marked \"one of\"".to_owned(),
-    };
+    const FEW: usize = 4;
+    let keys = choice.keys();
+    let names = if keys.len() <= FEW { joined(keys, "and") } else { "the keys marked \"one of\"".to_owned() };
     match choice {
         Choice::One(_) => format!("Exactly one of {names} is required."),
         Choice::Any(_) => format!("At least one of {names} is required."),

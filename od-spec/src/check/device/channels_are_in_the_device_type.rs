@@ -65,8 +65,7 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     if differences.is_empty() {
         return;
     }
-    let message =
-        format!("the device type of `{}` shows {}", subject.device.key, differences.join("; "));
+    let message = format!("the device type of `{}` shows {}", subject.device.key, differences.join("; "));
     let (high, low) = (expected >> 16, expected & 0xFFFF);
     let specification = format!("write `device-type: 0x{high:04X}_{low:04X}`, or correct the objects");
     let value = subject.format.set(Key::Default, &format!("0x{expected:08X}"));

@@ -45,7 +45,10 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
             let (id, title) = (parameter.id, title(pdo));
             let (message, identifier) = match base {
                 Some(base) => (
-                    format!("{id}: {title} starts on {actual:X}h on node {node}, masters expect {:X}h", base + i128::from(node)),
+                    format!(
+                        "{id}: {title} starts on {actual:X}h on node {node}, masters expect {:X}h",
+                        base + i128::from(node)
+                    ),
                     format!("write `$NODEID+0x{base:X}`, or "),
                 ),
                 None => (
@@ -57,8 +60,12 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
                 ),
             };
             parameter.finding(CODE, message).help(subject.help(Help {
-                specification: &format!("{identifier}make the PDO `valid: no`; a master that uses it gives it an identifier"),
-                eds: &format!("{identifier}set bit 31, not valid; a master that uses it gives it an identifier"),
+                specification: &format!(
+                    "{identifier}make the PDO `valid: no`; a master that uses it gives it an identifier"
+                ),
+                eds: &format!(
+                    "{identifier}set bit 31, not valid; a master that uses it gives it an identifier"
+                ),
                 setting: "set bit 31, not valid, or an identifier that is free",
             }))
         });

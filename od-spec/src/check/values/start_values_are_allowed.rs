@@ -50,9 +50,11 @@ pub fn start_of_code(device: &Dictionary) -> Option<Diagnostic> {
     let mut wrong = starting_wrong(device);
     let (id, entry) = wrong.next()?;
     let message = format!("in the code, {id} ({}) starts with 0, which is {}", entry.name, problem(entry));
-    let diagnostic = Diagnostic::new(CODE, entry.place(limit(entry).fact()), message).about((id, limit(entry).fact())).help(
-        "write `DefaultValue` into the EDS; or let the firmware write these entries before they are read",
-    );
+    let diagnostic = Diagnostic::new(CODE, entry.place(limit(entry).fact()), message)
+        .about((id, limit(entry).fact()))
+        .help(
+            "write `DefaultValue` into the EDS; or let the firmware write these entries before they are read",
+        );
     let mut named: Vec<String> = wrong.by_ref().take(NAMED).map(|(id, _)| id.to_string()).collect();
     match wrong.count() {
         0 => {}

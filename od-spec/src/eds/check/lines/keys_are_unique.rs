@@ -55,7 +55,8 @@ fn compare(
         }
         let is_equal = before.value == entry.value;
         *are_equal &= is_equal;
-        let message = format!("`{}` is written twice in `{}`", shorten(entry.key.value), shorten(section.name()));
+        let message =
+            format!("`{}` is written twice in `{}`", shorten(entry.key.value), shorten(section.name()));
         let mut diagnostic = Diagnostic::new(CODE, entry.key.span, message)
             .label("again here")
             .with(before.key.span, "first here");

@@ -28,12 +28,8 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         let is_quoted = value.len() > 1 && value.starts_with('"') && value.ends_with('"');
         if is_quoted && TEXTS.iter().any(|key| key.eq_ignore_ascii_case(entry.key.value)) {
             found.add(entry.value.span, [], || {
-                Diagnostic::new(
-                    CODE,
-                    entry.value.span,
-                    format!("`{}` is in quotation marks", shorten(value)),
-                )
-                .help("remove the quotation marks, unless they are part of the text")
+                Diagnostic::new(CODE, entry.value.span, format!("`{}` is in quotation marks", shorten(value)))
+                    .help("remove the quotation marks, unless they are part of the text")
             });
         }
     }
