@@ -15,8 +15,8 @@
 //! }
 //! ```
 //!
-//! `Builder` reports mistakes of the specification as errors of the build, with their places. It tells cargo to run the
-//! script again only when a file that it read has changed. The macro `object_dictionary!` of the crate `od-macros` gives
+//! `Builder` reports mistakes of the specification as errors of the build, with their places. Cargo runs the script
+//! again only when a file that it read has changed. The macro `object_dictionary!` of the crate `od-macros` gives
 //! the same module without a build script. The same steps in a program of its own:
 //!
 //! ```

@@ -155,7 +155,7 @@ mod tests {
         // Between the two halves of the emoji, and between the bytes of the degree sign.
         assert_eq!(offset(1, 1, Encoding::Utf16), 6);
         assert_eq!(offset(0, 2, Encoding::Utf8), 1);
-        // Behind the line: before its line break.
+        // After the end of the line: before its line break.
         assert_eq!(offset(0, 99, Encoding::Utf16), 4);
         assert_eq!(offset(2, u32::MAX, Encoding::Utf8), 17);
         assert_eq!(offset(4, 0, Encoding::Utf16), TEXT.len());

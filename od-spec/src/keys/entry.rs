@@ -11,9 +11,9 @@ use crate::model::{Access, Category, PdoMapping, Storage};
 /// - The field is one of `EntryDecl`; its type says how the value is read (`FromNode` in `decode`).
 /// - The fact is what the key states, a variant of `Fact`.
 /// - The reach is that of a key at an object with elements or members, a variant of `Reach`.
-/// - The example may be left out. With `sub0`, the key may also stand at `sub0:`, with a meaning of its own.
+/// - The example may be left out. With `sub0`, the key may also be at `sub0:`, with a meaning of its own.
 ///
-/// The keys under `values` may stand at elements, members, objects and arrays; those under `names` not at arrays.
+/// The keys under `values` may be at elements, members, objects and arrays; those under `names` not at arrays.
 macro_rules! entry_keys {
     ($then:ident) => {
         $then! {
@@ -52,7 +52,7 @@ macro_rules! places {
     })+) => {
         $(places! { @group $group key_list! { $($key $($need)?: $shape, $about $(, $example)?;)+ } })+
 
-        /// Keys of entries that also stand at `sub0:`.
+        /// Keys of entries that are also allowed at `sub0:`.
         pub(super) const SUB0_KEYS: &[Key] = key_list! { $($($($key: $shape, $sub0;)?)+)+ };
     };
     (@group names $list:expr) => {
@@ -60,7 +60,7 @@ macro_rules! places {
         pub(super) const NAME_KEYS: &[Key] = $list;
     };
     (@group values $list:expr) => {
-        /// Keys of entries that stand at objects and arrays as well.
+        /// Keys of entries that are allowed at objects and arrays as well.
         pub(super) const VALUE_KEYS: &[Key] = $list;
     };
 }

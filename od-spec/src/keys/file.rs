@@ -33,7 +33,7 @@ const MAIN_KEYS: &[Key] = key_list! {
     "axes": Shape::Map(&AXES), "objects of a library that repeat for every axis", "{first: 0x6000, last: 0x67FF, count: 8}";
 };
 
-/// Sections: maps and lists, which may stand in parts.
+/// Sections: maps and lists, which may be in parts.
 const SECTION_KEYS: &[Key] = key_list! {
     "history": Shape::List(&Shape::Map(&REVISION)), "issues of the manual, oldest first";
     "allow": Shape::MapOf(KeyKind::Name, &Shape::ShortOr(&Shape::Text, &ALLOWED)), "rules that the device may break, by code, with the reason: their findings become notes", "{OD0510: the drive counts errors of the factory test}";

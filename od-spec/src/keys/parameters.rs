@@ -1,4 +1,4 @@
-//! The keys of a parameter file: what is settled for one node, beside the specification of its device.
+//! The keys of a parameter file: what is set for one node, in addition to the specification of its device.
 
 use super::shape::{Key, KeyKind, Keys, NameOf, Shape, U32};
 use super::table::keys;

@@ -136,7 +136,7 @@ pub enum Shape {
     OneOrMore(&'static Shape),
     /// A short form (a scalar) or a map.
     ShortOr(&'static Shape, &'static Keys),
-    /// The name of a feature; behind a colon, how many channels it has, where it has some.
+    /// The name of a feature; after a colon, how many channels it has, if it has some.
     Feature,
     /// The name of something that is defined elsewhere.
     NameOf(NameOf),
@@ -161,7 +161,7 @@ pub enum NameOf {
     Device,
     /// A feature of a library.
     Feature,
-    /// A bit or run of bits of the type that is named beside it; its name or its number.
+    /// A bit or run of bits of the type that is named next to it; its name or its number.
     Bit,
     /// A state of the state machine; `start` and `any` are others.
     State,

@@ -28,7 +28,7 @@ pub(super) fn collect<'t>(
     let mut all = Collector::new(sources, known, &resolved, devices);
     for (file, tree) in trees {
         let keys = keys_of(tree);
-        // What calls itself a part, and is none, was reported.
+        // A file that wrongly calls itself a part was reported.
         walk(tree, if keys.name == PART.name && !file.is_one_with(root) { &SPEC } else { keys }, &mut all);
     }
     let mut found = all.into_found();

@@ -7,7 +7,7 @@ use crate::client::Client;
 const EDS: &str = include_str!("../../../../generated/eds/pmc.eds");
 const XDD: &str = include_str!("../cli/eds/tank.xdd");
 
-/// Line and column of a text behind the first place of another.
+/// Line and column of a text after the first place of another.
 fn place(text: &str, after: &str, needle: &str) -> (u32, u32) {
     let start = text.find(after).unwrap();
     let at = start + text[start..].find(needle).unwrap();

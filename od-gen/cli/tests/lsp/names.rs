@@ -439,7 +439,7 @@ fn only_keys_that_check_takes_are_offered_and_the_usual_ones_first() {
     assert!(!of_record.iter().any(|key| refused.contains(&key.as_str())), "{of_record:?}");
     let (items, _) = session.complete("access: ro, pdo: transmit}", "access: ro, ‸}");
     assert!(!labels(&items).contains(&"writable-when".to_owned()));
-    // A unit by its symbol, and behind a number.
+    // A unit by its symbol, and after a number.
     let (items, _) = session.complete("unit: tenth °C, access: ro", "unit: °‸, access: ro");
     let unit = items.iter().find(|item| item["label"] == "tenth °C").unwrap();
     assert_eq!(unit["filterText"], "°C");

@@ -21,7 +21,7 @@ use super::analysis::Kind;
 use super::snapshot::Snapshot;
 use items::Written;
 
-/// Stands where the cursor is.
+/// Marks where the cursor is.
 const MARK: char = '\u{F8FF}';
 
 /// How a client wants completions.

@@ -1,7 +1,7 @@
 //! The language reference: chapters in Markdown, with the key tables in them.
 //!
 //! What a single key means is in [`od_spec::keys`] and nowhere else; the chapters are about several keys together. In their
-//! texts a mark in braces stands for a table: `{KEYS an object}` for the section about the keys of an object, `{STORAGE}`
+//! texts a mark in braces is replaced by a table: `{KEYS an object}` for the section about the keys of an object, `{STORAGE}`
 //! for words of the language. A link names a heading of any chapter: `[an entry](#entry)`.
 
 mod features;
@@ -69,7 +69,7 @@ fn printed(chapter: &Chapter, marks: &[(String, Table)]) -> String {
     })
 }
 
-/// What a mark in a chapter stands for.
+/// What replaces a mark in a chapter.
 enum Table {
     /// A text.
     Text(String),
@@ -82,7 +82,7 @@ fn key_tables() -> impl Iterator<Item = &'static Keys> {
     reachable().into_iter().chain([&CONSUMER, &PARAMETER_FILE]).chain(reachable_in_plants())
 }
 
-/// The marks, each with what it stands for.
+/// The marks, each with what replaces it.
 fn marks() -> Vec<(String, Table)> {
     let keys = key_tables().map(|keys| (format!("{{KEYS {}}}", keys.name), Table::Keys(keys)));
     let words = WORD_TABLES.iter().map(|words| (words.mark, words.markdown()));
@@ -135,7 +135,7 @@ mod tests {
         for (mark, _) in marks() {
             assert_eq!(chapters.matches(&mark).count(), 1, "{mark}");
         }
-        // A mark that stands for nothing would be printed as it is. A map in an example has a colon.
+        // A mark without a meaning would be printed as it is. A map in an example has a colon.
         let text = reference();
         let is_mark = |inner: &&str| inner.starts_with(char::is_uppercase) && !inner.contains(':');
         let braces = text.split('{').skip(1).filter_map(|rest| rest.split('}').next());
