@@ -14,8 +14,8 @@ use od_spec::source::{FileId, SourceMap, Span};
 use od_spec::xdd::is_xdd;
 use od_spec::yaml::{self, Node};
 use od_spec::{
-    Compiled, Loader as _, add_source, assign_layers, compile, is_parameter_file, is_specification,
-    parameter_file,
+    Compiled, Loader as _, NodeOfFile, add_source, assign_layers, compile, is_parameter_file,
+    is_specification, parameter_file,
 };
 
 use super::buffer::Buffer;
@@ -251,15 +251,37 @@ impl Analysis {
                 (None, [only]) => Some(only),
                 _ => named,
             };
-            match (device, system.devices.first()) {
-                (Some(device), _) => {
-                    let node = file.node.map_or(1, |node| node.value);
-                    let layers = [file.layer.clone()];
-                    assign_layers(system, device, node, &layers, &mut self.diagnostics);
+            match (device, &file.device, system.devices.first()) {
+                (Some(device), ..) => {
+                    let of_file = compiled.node.as_ref();
+                    let stated = file.node.map(|node| node.value).or_else(|| of_file?.stated_id());
+                    // Without a node-ID, the values are those of any node.
+                    let node = stated.unwrap_or(1);
+                    let mut commissioning = NodeOfFile::or_defaults(of_file, device, node);
+                    file.settle(device, &mut commissioning, &mut self.diagnostics);
+                    let configured = commissioning.configured(device);
+                    assign_layers(
+                        system,
+                        &configured,
+                        node,
+                        std::slice::from_ref(&file.layer),
+                        &mut self.diagnostics,
+                    );
                     devices.insert(String::new(), device.key.clone());
                 }
-                (None, Some(first)) => file.check_device(system, first, &mut self.diagnostics),
-                (None, None) => {}
+                (None, Some(_), Some(first)) => file.check_device(system, first, &mut self.diagnostics),
+                (None, None, Some(_)) => {
+                    let keys: Vec<&str> = system.devices.iter().map(|device| device.key.as_str()).collect();
+                    self.diagnostics.push(
+                        Diagnostic::new(
+                            codes::UNKNOWN_DEVICE,
+                            spec.span,
+                            format!("`{}` describes several devices", spec.value),
+                        )
+                        .help(format!("add `device:` with one of {}", keys.join(", "))),
+                    );
+                }
+                (None, _, None) => {}
             }
         }
         self.described = vec![Described::new(described, system, devices)];
@@ -323,11 +345,13 @@ impl Analysis {
     }
 
     /// Whether a file has the syntax of specifications.
-    fn is_yaml(&self, file: FileId) -> bool {
+    pub(super) fn is_yaml(&self, file: FileId) -> bool {
         let source = self.sources.file(file);
         let is_one = |kind| matches!(kind, Kind::Specification | Kind::Plant | Kind::Parameters);
-        // A plant may name an EDS.
-        is_one(self.kind) && (Some(file) == self.root || !is_eds(source.name(), source.text()))
+        // A plant or parameter file may name an EDS or XDD.
+        is_one(self.kind)
+            && (Some(file) == self.root
+                || !is_eds(source.name(), source.text()) && !is_xdd(source.name(), source.text()))
     }
 
     /// The syntax tree of a file; `None` if the text is not YAML.

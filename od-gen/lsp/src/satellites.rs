@@ -5,8 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use od_gen::source::read_file;
-use od_spec::is_parameter_file;
 use od_spec::plant::is_plant;
+use od_spec::{is_parameter_file, read_text};
 
 use super::place::Place;
 
@@ -19,7 +19,8 @@ const FOREIGN: [&str; 2] = ["node_modules", "target"];
 
 /// Adds the parameter files and plants below a folder.
 pub(super) fn below(folder: &Path, found: &mut BTreeSet<Place>) {
-    look(folder, DEPTH, &mut MOST.clone(), found);
+    let mut left = MOST;
+    look(folder, DEPTH, &mut left, found);
 }
 
 fn look(folder: &Path, depth: usize, left: &mut usize, found: &mut BTreeSet<Place>) {
@@ -43,6 +44,6 @@ fn look(folder: &Path, depth: usize, left: &mut usize, found: &mut BTreeSet<Plac
 
 /// Whether a file is a parameter file or a plant.
 fn is_of_nodes(path: &Path) -> bool {
-    let text = read_file(path).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    let text = read_file(path).ok().and_then(|bytes| read_text(&path.to_string_lossy(), bytes).ok());
     text.is_some_and(|text| is_parameter_file(&text) || is_plant(&text))
 }

@@ -184,7 +184,7 @@ impl Server {
     /// Asks the client to report when a library or a part changes on the disk.
     fn watch_files(&self) {
         let watcher = FileSystemWatcher {
-            glob_pattern: GlobPattern::String("**/*.{yaml,eds,dcf}".to_owned()),
+            glob_pattern: GlobPattern::String("**/*.{yaml,yml,eds,dcf,xdd,xdc}".to_owned()),
             kind: None,
         };
         let options = DidChangeWatchedFilesRegistrationOptions { watchers: vec![watcher] };

@@ -55,8 +55,12 @@ async function complain(context) {
 async function start(context) {
   try {
     await run(context, ["--version"]);
-  } catch {
-    complain(context);
+  } catch (error) {
+    if (error.isMissing) {
+      complain(context);
+    } else {
+      window.showErrorMessage(`"${program(context)}" does not run: ${error.message.split("\n")[0]}`);
+    }
     return;
   }
   // Only now: a workspace without CANopen never loads it.
@@ -65,7 +69,7 @@ async function start(context) {
     { language, scheme: "file" },
     { language, scheme: "untitled" },
   ]);
-  client = new LanguageClient(
+  const starts = new LanguageClient(
     "odgen",
     "odgen",
     { command: program(context), args: ["lsp"] },
@@ -78,20 +82,27 @@ async function start(context) {
       },
     },
   );
-  await client.start();
+  await starts.start();
+  client = starts;
 }
 
 /** Starts the server for the first document that needs it. */
 async function look(context, document) {
   if (!client && !starting && isForUs(document)) {
     starting = start(context);
-    await starting;
-    starting = undefined;
+    try {
+      await starting;
+    } catch (error) {
+      window.showErrorMessage(`The language server does not start: ${error.message}`);
+    } finally {
+      starting = undefined;
+    }
   }
 }
 
 async function restart(context) {
-  await client?.stop();
+  await starting?.catch(() => {});
+  await client?.stop().catch(() => {});
   client = undefined;
   hasComplained = false;
   for (const document of workspace.textDocuments) {

@@ -134,12 +134,12 @@ codes! {
         "`sections:` of a device's `eds:` holds keys and sections that do not follow from the specification, such as `SRDOMapping`, keys of a maker, and modules. This key or section follows from the specification, and the EDS could contradict it. Remove it, and use the key that the help names."
     BAD_VALUE Error "OD0401" "a value that the type cannot read":
         "The text is not a value of the entry's type. Integers are raw numbers, physical values with the unit's symbol (`50.0 °C`), or the names of an enum; strings are text, octet strings hexadecimal digits."
-    BAD_FORMULA Error "OD0402" "not a valid node-ID formula":
+    BAD_FORMULA Error "OD0402" "a node-ID formula that is not valid":
         "CiA 306 knows `$NODEID` and at most one number added to it, nothing else. Tools read any other form as an ordinary number or refuse the file."
     WRONG_SYMBOL Error "OD0405" "a physical value in a foreign unit":
         "A physical value carries the symbol of the entry's unit, or of the unit's base."
     INEXACT_VALUE Error "OD0412" "a physical value between two steps":
-        "The value cannot be expressed in whole steps of the unit's scale: 5.05 °C is 50.5 steps of 0.1 °C. Nothing is rounded silently."
+        "The value cannot be expressed in whole steps of the unit's scale: 5.05 °C is 50.5 steps of 0.1 °C. Nothing is rounded silently. Write one of the values next to it (5.0 °C or 5.1 °C), the raw number, or give the unit a finer `scale:`."
     LIMIT_ON_TYPE Error "OD0408" "a limit on a type without order":
         "Only numbers have limits: strings, domains and BOOLEAN have none. Special values are those of integers."
     BAD_BASE_TYPE Error "OD0409" "a type that cannot carry values or bits":
@@ -221,13 +221,13 @@ codes! {
     NO_TERMINAL Error "OD0718" "something that needs a terminal":
         "`odgen serve --watch` draws on the terminal and takes its keys. Standard input and output have to be that terminal, and no file or pipe; a script comes from a file then, and not from standard input. `odgen serve --log` prints every frame in words without a terminal, and `odgen node monitor` prints what changes on any bus. Commands of `odgen node` that change a node show the changes first and ask at the terminal. Scripts use `--yes`, or `--dry-run` to see the changes only."
     NOTHING_TO_UNLOCK Error "OD0720" "an unlock of what is not locked":
-        "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set anyway, so that factory data is not overwritten by accident. This entry has no lock: with a wrong name here, the entry that was meant would not be looked at. Remove it, or name the entry that is locked."
+        "`unlock:` of a parameter file and `--unlock` name locked entries that are to be set anyway, so that factory data is not overwritten by accident. This entry has no lock: if the name is wrong, the lock of the entry that was meant stays. Remove it, or name the entry that is locked."
         [Example::parameters(
             "parameters: {calibration: 101}\nunlock: [calibration, lowest voltage]",
             "parameters: {calibration: 101}\nunlock: [calibration]"
         )]
     UNKNOWN_IN_PLANT Error "OD0730" "a name that the plant does not have":
-        "What a plant states about a type, a position or a device at a position has to be about one that exists: on a machine without it, nothing would happen, and the mistake would go unnoticed. Types are under `types:`; the positions of a machine and the devices there are those of its type. A machine with other devices is of another type."
+        "What a plant states about a type, a position or a device at a position has to be about one that exists: on a machine that has no such type, position or device, nothing would happen, and the mistake would go unnoticed. Types are under `types:`; the positions of a machine and the devices there are those of its type. A machine with other devices is of another type."
         [Example::plant(
             "sites:\n  Hall: {type: P2, machines: {1..3: {}}}",
             "sites:\n  Hall: {type: P1, machines: {1..3: {}}}"
@@ -246,7 +246,7 @@ codes! {
         )]
     DEPARTURE Note "OD0811" "a departure from a standard":
         "The specification takes the object from a library of a standard and states something different about it. That is allowed: the maker's word takes precedence over the standard's. `odgen check --notes` lists these objects, and the documentation shows what differs."
-    OPEN_GAP Warning "OD0841" "an open gap":
+    OPEN_GAP Warning "OD0841" "a gap that is not filled":
         "`odgen new` writes examples where only the author knows the value, such as the vendor-ID, and marks them with the comment `# <--`. A device must not be delivered with them. Write the value and remove the comment."
     REGISTER_AGAINST_CLASS Warning "OD0845" "an error register against the class of the error":
         "The first digits of an error code are its class (CiA 301 table 21): current, voltage, temperature, communication, or the manufacturer's own. A master that reads the error register (1001h) expects the bit of that class. `register:` names other bits and not this one: add it, or give the error a code of the class that is meant."

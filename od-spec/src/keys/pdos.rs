@@ -110,7 +110,7 @@ keys! {
     /// The mapped entries of mapping parameters.
     PDO_MAPPED_ENTRY = "a mapped entry of PDOs" {
         "name": ENTRY_NAME, "name", "\"Mapping Entry {n}\"";
-        "identifier": ENTRY_NAME, "identifier, where the entries have one name", "\"mapping_entry_{n}\"";
+        "identifier": ENTRY_NAME, "identifier, where several entries share a name", "\"mapping_entry_{n}\"";
         "access": ACCESS, "access; unless given, `ro` where the mapping is fixed, otherwise `rw`";
         "min": U32, "smallest allowed value";
         "max": U32, "largest allowed value";

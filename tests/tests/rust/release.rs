@@ -76,8 +76,19 @@ fn the_version_is_the_same_everywhere() {
     let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
     assert!(read("CHANGELOG.md").lines().any(|line| line.starts_with(&format!("## {version}"))), "{version}");
     assert!(read("od-gen/bus/bridge/pyproject.toml").contains(&format!("\nversion = \"{version}\"\n")));
+    let extension: Value = serde_json::from_str(&read("od-gen/lsp/vscode/package.json")).unwrap();
+    assert_eq!(extension["version"], package["version"]);
     let tags = workflow()["on"]["push"]["tags"].clone();
     assert_eq!(tags, serde_json::json!(["v[0-9]*"]));
+}
+
+/// The wheels of a release and those of the tests have one builder.
+#[test]
+fn wheels_are_built_by_one_version() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
+    let tests = read("tests/src/bin/xtask/installed.rs");
+    let builder = tests.split('"').find(|text| text.starts_with("maturin==")).unwrap();
+    assert!(read(".github/workflows/release.yml").contains(&format!("--spec {builder}\n")), "{builder}");
 }
 
 /// Runs the step "Pack" as the workflow does, with an empty program.

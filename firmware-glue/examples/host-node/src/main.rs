@@ -64,23 +64,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // One client at a time; the node keeps its state between them.
     for client in listener.incoming() {
-        let mut bus = Slcan::new(client?, LONGEST_WAIT)?;
-        loop {
+        // A connection that breaks ends its client, and not the node.
+        let Ok(mut bus) = client.and_then(|client| Slcan::new(client, LONGEST_WAIT)) else { continue };
+        let mut step = || -> io::Result<()> {
             while let Some(frame) = node.poll(&mut lamp, &mut bulb, now()) {
                 bus.send(&frame)?;
             }
-            match bus.receive() {
-                Ok(Some(frame)) => {
-                    if let Some(answer) = node.handle(&frame, &mut lamp, &mut bulb, now()) {
-                        bus.send(&answer)?;
-                    }
-                }
-                // Nothing came in time.
-                Ok(None) => {}
-                // The client is gone.
-                Err(_) => break,
+            if let Some(frame) = bus.receive()?
+                && let Some(answer) = node.handle(&frame, &mut lamp, &mut bulb, now())
+            {
+                bus.send(&answer)?;
             }
-        }
+            Ok(())
+        };
+        while step().is_ok() {}
     }
     Ok(())
 }

@@ -35,7 +35,7 @@ impl Slcan {
         self.stream.write_all(line.as_bytes())
     }
 
-    /// The next frame of the client; `None` if none came in time.
+    /// The next frame of the client; `None` if a command was answered instead, or if nothing came in time.
     pub(crate) fn receive(&mut self) -> io::Result<Option<Frame>> {
         let mut byte = [0];
         loop {
@@ -45,13 +45,11 @@ impl Slcan {
                     let line = std::mem::take(&mut self.line);
                     let frame = frame(&line);
                     self.answer(&line, frame.is_some())?;
-                    if frame.is_some() {
-                        return Ok(frame);
-                    }
+                    return Ok(frame);
                 }
                 // No command is longer.
-                Ok(_) if self.line.len() < 31 => self.line.push(char::from(byte[0])),
-                Ok(_) => {}
+                Ok(_) if self.line.len() > 30 => return Err(ErrorKind::InvalidData.into()),
+                Ok(_) => self.line.push(char::from(byte[0])),
                 Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
                     return Ok(None);
                 }

@@ -50,7 +50,7 @@ fn dbc(args: &DbcArgs, directory: &Path, report: &Report) -> Result<u8, u8> {
         report.note(&format!("left out: {left_out}"));
     }
     for silent in written.silent.values() {
-        report.note(&format!("no messages, because nothing is sent until it is set up: {silent}"));
+        report.note(&format!("no messages, because these are sent only after they are set up: {silent}"));
     }
     let line = format!(
         "  {}  {} kB  {}, {}, {}\n",

@@ -1,7 +1,7 @@
 //! The keys of the language.
 
 use lsp_types::CompletionItemKind;
-use od_spec::keys::{Key, Keys, Need, OBJECT, SPEC, Shape, TYPE};
+use od_spec::keys::{Choice, Key, Keys, Need, OBJECT, SPEC, Shape, TYPE};
 use od_spec::model::DataType;
 use od_spec::yaml::Node;
 
@@ -48,15 +48,13 @@ fn is_refused(key: &str, keys: &Keys, map: &Node, has: &impl Fn(&str) -> bool) -
             }
             _ => false,
         };
-    let of_type = keys.name == TYPE.name
-        && match key {
-            "values" => has("bits"),
-            "bits" => has("values"),
-            "rest" => has("values"),
-            _ => false,
-        };
+    let of_type = keys.name == TYPE.name && key == "rest" && has("values");
     let of_file = keys.name == SPEC.name && matches!(key, "features" | "axes") && !has("profile");
-    of_object || of_entry || of_type || of_file
+    let is_other_choice = keys.choices.iter().any(|choice| match choice {
+        Choice::One(names) => names.contains(&key) && any(names),
+        Choice::Any(_) | Choice::AnyInherited(_) | Choice::Together(_) => false,
+    });
+    of_object || of_entry || of_type || of_file || is_other_choice
 }
 
 fn offer(key: &Key, at: usize, written: &Written, client: &Insertion) -> Offer {

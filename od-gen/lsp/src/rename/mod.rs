@@ -78,7 +78,8 @@ fn text_edits<'c>(
 fn named(snapshot: &Snapshot, position: Position) -> Result<(Cursor<'_>, Span), String> {
     let nothing = || "there is no name here".to_owned();
     let cursor = Cursor::of(snapshot, position).ok_or_else(nothing)?;
-    let broken = snapshot.now.files().find(|file| snapshot.now.tree(*file).is_none());
+    let now = &snapshot.now;
+    let broken = now.files().find(|file| now.is_yaml(*file) && now.tree(*file).is_none());
     if let Some(file) = broken {
         let name = snapshot.now.sources.file(file).name();
         return Err(format!(

@@ -18,8 +18,8 @@ const CODE: &Code = &Code {
     explanation: "Inhibit time (sub-index 3) and event timer (sub-index 5) decide when a TPDO is sent on an event, \
         that is, only with the transmission types 254 and 255: a TPDO that waits for SYNC or a remote frame uses \
         neither. An RPDO has no inhibit time; its event timer watches for messages that fail to come. An event timer \
-        that is shorter than the inhibit time runs out while the PDO must not be sent. The author of the time expects \
-        an effect that it does not have. Write 0, or the transmission type or time that was meant.",
+        that is shorter than the inhibit time runs out while the PDO must not be sent. The time has no effect \
+        there. Write 0, or the transmission type or time that was meant.",
     clause: Some("CiA 301, objects 1400h and 1800h (inhibit time, event-timer)"),
     example: Some(Example::new(
         "devices:\n  io: {name: Example, bit-rates: [125], features: [heartbeat producer, sync consumer]}\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro, pdo: transmit}\npdos:\n  io: {transmit: {1: {transmission: 1, event-timer: 100, map: [level]}}}",
