@@ -88,8 +88,8 @@ impl Source<'_> {
         let meant = sent.filter(|(command, _)| command.transitions.contains(&transition));
         let code = meant.min_by_key(|(command, _)| command.transitions.len()).map(|(_, code)| code);
         let data_type = self.entry_of(machine, machine.command).map(|entry| entry.data_type);
-        let told = |(code, data_type)| self.wording.pattern(data_type, i128::from(code));
-        code.zip(data_type).map_or_else(String::new, told)
+        let reported = |(code, data_type)| self.wording.pattern(data_type, i128::from(code));
+        code.zip(data_type).map_or_else(String::new, reported)
     }
 
     pub(crate) fn transitions(&self, machine: &StateMachine) -> Grid {

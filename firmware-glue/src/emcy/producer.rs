@@ -188,11 +188,11 @@ impl<const N: usize> EmergencyProducer<N> {
                 Raised::NotKept
             }
         };
-        self.tell(dictionary, emergency);
+        self.report(dictionary, emergency);
         raised
     }
 
-    fn tell<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) {
+    fn report<'t, D: Dictionary<'t>>(&mut self, dictionary: &mut D, emergency: Emergency) {
         let register = self.register();
         set(dictionary, 0x1001, 0, register.bits().into());
         remember(dictionary, emergency);

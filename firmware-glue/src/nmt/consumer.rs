@@ -209,13 +209,13 @@ mod tests {
     #[test]
     fn another_state_and_a_reset_are_told() {
         let (device, mut consumer) = (device(), Consumer::<3>::new());
-        let mut tell = |code| consumer.handle(&beat(5, code), &device, at(0));
-        assert_eq!(tell(0), Some(NodeEvent::Started(node(5), Some(State::Initialising))));
-        assert_eq!(tell(0), Some(NodeEvent::Changed(node(5), Some(State::Initialising))));
-        assert_eq!(tell(127), Some(NodeEvent::Changed(node(5), Some(State::PreOperational))));
-        assert_eq!(tell(127), None);
-        assert_eq!(tell(42), Some(NodeEvent::Changed(node(5), None)));
-        assert_eq!(tell(4), Some(NodeEvent::Changed(node(5), Some(State::Stopped))));
+        let mut report = |code| consumer.handle(&beat(5, code), &device, at(0));
+        assert_eq!(report(0), Some(NodeEvent::Started(node(5), Some(State::Initialising))));
+        assert_eq!(report(0), Some(NodeEvent::Changed(node(5), Some(State::Initialising))));
+        assert_eq!(report(127), Some(NodeEvent::Changed(node(5), Some(State::PreOperational))));
+        assert_eq!(report(127), None);
+        assert_eq!(report(42), Some(NodeEvent::Changed(node(5), None)));
+        assert_eq!(report(4), Some(NodeEvent::Changed(node(5), Some(State::Stopped))));
     }
 
     #[test]

@@ -288,7 +288,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if self.restart.is_some() {
             return Some(Instant::ZERO);
         }
-        let told = if self.state().allows(Service::Emergency) {
+        let reported = if self.state().allows(Service::Emergency) {
             self.emergencies.next_deadline(dictionary)
         } else {
             None
@@ -301,7 +301,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
             self.consumer.next_deadline(),
             self.pdos.next_deadline(dictionary),
             self.sdo.next_deadline(),
-            told,
+            reported,
         ]
         .into_iter()
         .fold(lss, earlier)

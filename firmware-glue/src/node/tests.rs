@@ -209,9 +209,9 @@ fn a_lost_heartbeat_is_an_emergency_and_a_reaction() {
         let node = NodeId::new(7).expect("a node-ID");
         let started = Event::Heartbeat(NodeEvent::Started(node, Some(State::Operational)));
         assert_eq!((bench.events(), bench.sent(109)), (vec![started], vec![]));
-        let told = bench.sent(110);
+        let reported = bench.sent(110);
         let emergency = (0x85, vec![0x30, 0x81, 0x11, 7, 0, 0, 0, 0]);
-        assert_eq!(told, if setting == 2 { vec![] } else { vec![emergency] });
+        assert_eq!(reported, if setting == 2 { vec![] } else { vec![emergency] });
         assert_eq!((bench.node.state(), bench.read(0x1001, 0)), (state, Some(0x11)));
         assert!(bench.events().contains(&Event::Heartbeat(NodeEvent::Lost(node))));
         bench.handle(0x707, &[5], 200);

@@ -46,9 +46,9 @@ impl Buffer {
     pub(super) fn compare(&mut self, bytes: Vec<u8>) {
         let Ok((text, encoding)) = decode(bytes) else { return };
         let characters = beyond_ascii(&text);
-        if characters != beyond_ascii(&self.text) && within_ascii(&text).eq(within_ascii(&self.text)) {
-            self.stored = Some(Stored { encoding: encoding.name(), characters });
-        }
+        let is_other =
+            characters != beyond_ascii(&self.text) && within_ascii(&text).eq(within_ascii(&self.text));
+        self.stored = is_other.then(|| Stored { encoding: encoding.name(), characters });
     }
 
     /// The encoding of the file and the first character that the editor may show wrong, if it has read the file in another one.

@@ -1,7 +1,7 @@
 //! What values of an EDS or DCF refer to: the entry that a PDO maps, the object that a list names.
 
 use od_spec::eds::{Document, Owner, SectionRef, owner};
-use od_spec::model::{EntryId, Index, SubIndex};
+use od_spec::model::{EntryId, Index, Role, SubIndex};
 use od_spec::scalar;
 use od_spec::source::{FileId, Span};
 
@@ -46,7 +46,7 @@ fn meant(section: &SectionRef<'_, '_>, key: &str, number: u32) -> Option<EntryId
     if is_item && ["MandatoryObjects", "OptionalObjects", "ManufacturerObjects"].into_iter().any(is) {
         return Some(EntryId { index: Index(u16::try_from(number).ok()?), sub: SubIndex(0) });
     }
-    let is_mapping = |index: Index| matches!(index.0, 0x1600..=0x17FF | 0x1A00..=0x1BFF);
+    let is_mapping = |index| Role::of(index) == Role::PdoMapping;
     let is_value = match owner(section.name()) {
         Owner::Entry(id) => {
             let is_key =

@@ -232,7 +232,7 @@ impl Server {
             }
             DidSaveTextDocument::METHOD => {
                 if let Some(saved) = self.read::<<DidSaveTextDocument as Method>::Params>(&method, params) {
-                    self.workspace.changed(&Place::of_uri(&saved.text_document.uri));
+                    self.workspace.saved(&Place::of_uri(&saved.text_document.uri));
                 }
             }
             DidChangeWatchedFiles::METHOD => {

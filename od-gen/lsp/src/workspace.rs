@@ -56,15 +56,20 @@ impl Workspace {
     /// A document is open in the editor from now on.
     pub(super) fn open(&mut self, document: TextDocumentItem) {
         let place = Place::of_uri(&document.uri);
-        let mut buffer = Buffer::new(document.uri, document.version, document.text);
-        if let Place::File(path) = &place
+        self.buffers.insert(place.clone(), Buffer::new(document.uri, document.version, document.text));
+        self.saved(&place);
+    }
+
+    /// A document is as its file is, as far as the editor knows.
+    pub(super) fn saved(&mut self, place: &Place) {
+        if let Place::File(path) = place
+            && let Some(buffer) = self.buffers.get_mut(place)
             && is_stored_somehow(&path.to_string_lossy(), &buffer.text)
             && let Ok(bytes) = read_file(path)
         {
             buffer.compare(bytes);
         }
-        self.buffers.insert(place.clone(), buffer);
-        self.changed(&place);
+        self.changed(place);
     }
 
     /// An open document has another text; `false` if it is not open.

@@ -28,7 +28,7 @@ enum Ends {
     /// Nodes, and maybe the master.
     Of(Vec<String>),
     /// No node; the type states what its master does.
-    Nobody,
+    NoNode,
     /// No node, and the type says nothing of a master, which so may be there.
     Unstated,
 }
@@ -37,7 +37,7 @@ impl Ends {
     fn words(&self) -> String {
         match self {
             Self::Of(who) => who.join(", "),
-            Self::Nobody => "**no node**".to_owned(),
+            Self::NoNode => "**no node**".to_owned(),
             Self::Unstated => "(master)".to_owned(),
         }
     }
@@ -90,7 +90,7 @@ fn of_bus(bus: &Bus<'_>, type_number: usize, of_type: &MachineType) -> Vec<Pdo> 
         who.extend(by_master.contains(&id).then(|| "master".to_owned()));
         match (who.is_empty(), master) {
             (false, _) => Ends::Of(who),
-            (true, Some(_)) => Ends::Nobody,
+            (true, Some(_)) => Ends::NoNode,
             (true, None) => Ends::Unstated,
         }
     };

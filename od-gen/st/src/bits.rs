@@ -52,16 +52,16 @@ pub(super) fn bits<'a>(device: &mut Device<'a>) -> Vec<Bits<'a>> {
     let planned = device.bit_types().into_iter().filter_map(|named| {
         let TypeKind::Bits(fields) = &named.kind else { return None };
         let word = Elementary::bit_string(u32::from(named.base.bits()?));
-        let told: Vec<&BitField> = fields.iter().filter(|field| field.is_told()).collect();
-        if told.is_empty() {
+        let reported: Vec<&BitField> = fields.iter().filter(|field| field.is_told()).collect();
+        if reported.is_empty() {
             return None;
         }
         let name = device.name_of_type(named).to_owned();
         let wanted: Vec<Wanted> =
-            told.iter().map(|field| Wanted::new(member_name(field), number(field))).collect();
+            reported.iter().map(|field| Wanted::new(member_name(field), number(field))).collect();
         let names = Scope::without(&[]).give_all(&wanted);
         let members =
-            told.iter().zip(names).map(|(field, name)| Member { field, name, of_type: type_of(field) });
+            reported.iter().zip(names).map(|(field, name)| Member { field, name, of_type: type_of(field) });
         Some(Bits {
             named,
             word,
@@ -69,7 +69,7 @@ pub(super) fn bits<'a>(device: &mut Device<'a>) -> Vec<Bits<'a>> {
             unpack: device.scope.give(format!("{name}_unpack"), "bits"),
             pack: device.scope.give(format!("{name}_pack"), "bits"),
             members: members.collect(),
-            masks: masks(device, &name, word, &told),
+            masks: masks(device, &name, word, &reported),
         })
     });
     planned.collect()

@@ -80,9 +80,9 @@ fn names_are_names_of_the_language() {
         .map(str::to_ascii_uppercase)
         .collect();
     assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len());
-    let told: Vec<String> = written.left_out.iter().map(ToString::to_string).collect();
+    let reported: Vec<String> = written.left_out.iter().map(ToString::to_string).collect();
     assert_eq!(
-        told,
+        reported,
         [
             "the bytes of RPDO2 of 24v-valve: it carries a REAL, and tools differ in what converts its bits",
             "conversions of 2001h set-point of 24v-valve: LREAL does not have the numbers in the scale of `far` exactly",
@@ -127,8 +127,8 @@ pdos:
   valve: {receive: {1: {map: [unsigned8]}, 2: {map: [unsigned8, a]}}}
 ";
     let (written, text) = written(text, Some(5));
-    let told: Vec<String> = written.left_out.iter().map(ToString::to_string).collect();
-    assert_eq!(told, ["RPDO1 of valve: it carries nothing but placeholders"]);
+    let reported: Vec<String> = written.left_out.iter().map(ToString::to_string).collect();
+    assert_eq!(reported, ["RPDO1 of valve: it carries nothing but placeholders"]);
     assert!(!text.contains("TYPE VALVE_RPDO1 "), "{text}");
     assert!(text.contains("data[0] := 16#00;\ndata[1] := USINT_TO_BYTE(u1);"), "{text}");
 }

@@ -43,24 +43,24 @@ pub fn mark(sources: &SourceMap, file: FileId, diagnostics: &mut Diagnostics) {
     }
     let all = refusals(file, source);
     // A finding may be said once for many places, so what it says of a reader holds for all of them.
-    let mut told: BTreeSet<(Reader, Cause, &str)> = BTreeSet::new();
+    let mut remarked: BTreeSet<(Reader, Cause, &str)> = BTreeSet::new();
     for refusal in &all {
         let line = source.line_index(refusal.place.start);
         for diagnostic in by_line.get_mut(&line).into_iter().flatten() {
             if stumbling(diagnostic.code).iter().any(|one| one.reader == refusal.reader) {
                 diagnostic.minded_by.insert(refusal.reader);
-                told.insert((refusal.reader, refusal.cause, refusal.what));
+                remarked.insert((refusal.reader, refusal.cause, refusal.what));
             }
         }
     }
-    let untold = all.into_iter().filter(|one| !told.contains(&(one.reader, one.cause, one.what)));
+    let unreported = all.into_iter().filter(|one| !remarked.contains(&(one.reader, one.cause, one.what)));
     diagnostics.as_mut_slice().iter_mut().for_each(Diagnostic::tell_readers);
     let reported = both_ways(source.text(), file).map(|mut note| {
         note.tell_readers();
         note
     });
     // What is only about readers names them in its message.
-    for note in notes(untold, source).into_iter().chain(reported) {
+    for note in notes(unreported, source).into_iter().chain(reported) {
         diagnostics.push(note);
     }
     diagnostics.sort();

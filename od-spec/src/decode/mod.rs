@@ -3,6 +3,7 @@
 //! First [`shape`] compares the tree of each file with the key tables and reports everything that does not fit; then
 //! [`spec`] reads what does fit and silently leaves out the rest, so that each mistake is reported once.
 
+mod choices;
 mod constraints;
 mod devices;
 mod entry;

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::lexical;
+use super::{choices, lexical};
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::expr::{AnyName, ConditionError, Expr, Parsed, without_names};
-use crate::keys::{CHANNELS, Choice, Key, KeyKind, Keys, NameOf, Need, NumberedName, Shape, VERSION};
+use crate::keys::{CHANNELS, Key, KeyKind, Keys, NameOf, Need, NumberedName, Shape, VERSION};
 use crate::model::Access;
 use crate::name_pattern::{NamePattern, Placeholder};
 use crate::scalar;
@@ -43,54 +43,8 @@ pub(super) fn check_map(node: &Node, keys: &Keys, owner: Span, diagnostics: &mut
         );
     }
     // A key that is unknown may have been meant for the one that is missing.
-    if is_sure {
-        let broken = keys.choices.iter().find_map(|choice| check_choice(*choice, entries, keys, owner));
-        if let Some(diagnostic) = broken {
-            diagnostics.push(diagnostic);
-        }
-    }
-}
-
-/// What is wrong with keys that depend on each other: one is missing, or one is too many.
-fn check_choice(
-    choice: Choice,
-    entries: &[(Spanned<String>, Node)],
-    keys: &Keys,
-    owner: Span,
-) -> Option<Diagnostic> {
-    let says_something = |name: &str, value: &Node| match keys.get(name).map(|key| key.shape) {
-        Some(Shape::YesNo) => value.text().and_then(|text| scalar::yes_no(text.value)) != Some(false),
-        Some(Shape::MapOf(..)) if matches!(choice, Choice::Any(_)) => !value.entries().is_empty(),
-        _ => true,
-    };
-    let is_written = |(name, value): &&(Spanned<String>, Node)| {
-        choice.keys().contains(&name.value.as_str()) && says_something(&name.value, value)
-    };
-    let written: Vec<&Spanned<String>> = entries.iter().filter(is_written).map(|(name, _)| name).collect();
-    match (choice, written.as_slice()) {
-        (Choice::One(all) | Choice::Any(all), []) => {
-            let names: Vec<String> = all.iter().map(|key| format!("`{key}`")).collect();
-            let message = match all.len() {
-                0..=4 => format!("{} needs the key {}", keys.name, names.join(" or ")),
-                count => format!("{} needs one of {count} keys", keys.name),
-            };
-            let help = format!("add one of {}", names.join(", "));
-            Some(Diagnostic::new(codes::MISSING_KEY, owner, message).help(help))
-        }
-        (Choice::One(_), [first, second, ..]) => {
-            let message = format!("`{}` and `{}` exclude each other", first.value, second.value);
-            let diagnostic = Diagnostic::new(codes::CONFLICTING_KEYS, second.span, message);
-            Some(diagnostic.with(first.span, "the other key").help("keep one of the two"))
-        }
-        (Choice::Together(all), [first, ..]) => {
-            let is_missing = |key: &&&str| written.iter().all(|name| name.value != **key);
-            let missing = all.iter().find(is_missing)?;
-            let message = format!("{} with `{}` needs the key `{missing}`", keys.name, first.value);
-            let help = format!("add `{missing}:`, or remove `{}:`", first.value);
-            Some(Diagnostic::new(codes::MISSING_KEY, first.span, message).help(help))
-        }
-        // What is inherited is seen where the map is laid over what it inherits from.
-        (Choice::One(_) | Choice::Any(_) | Choice::AnyInherited(_) | Choice::Together(_), _) => None,
+    if is_sure && let Some(diagnostic) = choices::check(entries, keys, owner) {
+        diagnostics.push(diagnostic);
     }
 }
 

@@ -31,7 +31,7 @@ pub(super) fn run(name: &str, text: &str) -> Result<Vec<String>, String> {
     let original = system(name, text)?;
     let mut problems = Vec::new();
     for change in changes(&original, &system(name, text)?)? {
-        problems.push(format!("differs from itself: {}", told(&change)));
+        problems.push(format!("differs from itself: {}", reported(&change)));
     }
     for (line, edit) in edits(text) {
         let copy = format!("{}{}{}", &text[..line.at], edit.value, &text[line.at + line.value.len()..]);
@@ -43,7 +43,7 @@ pub(super) fn run(name: &str, text: &str) -> Result<Vec<String>, String> {
                 && change.class() >= edit.class
         };
         if !found.iter().any(is_told) {
-            let others: Vec<String> = found.iter().map(told).collect();
+            let others: Vec<String> = found.iter().map(reported).collect();
             problems.push(format!("{what} is not reported, but: {}", others.join("; ")));
         }
         // A PDO that maps the entry changes with it.
@@ -52,7 +52,7 @@ pub(super) fn run(name: &str, text: &str) -> Result<Vec<String>, String> {
             index.is_some_and(|index| index != line.index && !(0x1400..0x1C00).contains(&index.0))
         };
         if let Some(change) = found.iter().find(is_elsewhere) {
-            problems.push(format!("{what} reports another object: {}", told(change)));
+            problems.push(format!("{what} reports another object: {}", reported(change)));
         }
     }
     Ok(problems)
@@ -70,7 +70,7 @@ fn changes(old: &System, new: &System) -> Result<Vec<Change>, String> {
     Ok(found.changes().cloned().collect())
 }
 
-fn told(change: &Change) -> String {
+fn reported(change: &Change) -> String {
     let none = "none".to_owned();
     let (before, after) = (change.before.as_ref().unwrap_or(&none), change.after.as_ref().unwrap_or(&none));
     format!("{:?} {}: {before} -> {after} ({})", change.place, change.fact.word(), change.class().word())

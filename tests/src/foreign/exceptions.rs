@@ -18,7 +18,7 @@ const LONGEST_DEFAULT: usize = 242;
 pub(super) fn except(repairs: &[Repair], before: &Dictionary, found: Vec<Difference>, checked: &mut Checked) {
     for difference in found {
         let Some(reason) = imported(&difference, before, repairs) else {
-            checked.problem(Step::Import, told(&difference, repairs));
+            checked.problem(Step::Import, reported(&difference, repairs));
             continue;
         };
         match checked.excepted.iter_mut().find(|(known, _)| *known == reason) {
@@ -29,7 +29,7 @@ pub(super) fn except(repairs: &[Repair], before: &Dictionary, found: Vec<Differe
 }
 
 /// The difference, with why the import says that it has changed the place.
-fn told(difference: &Difference, repairs: &[Repair]) -> String {
+fn reported(difference: &Difference, repairs: &[Repair]) -> String {
     let because = repairs.iter().find(|repair| is_about(repair, difference.place));
     match because {
         Some(repair) => format!("{difference}; the import says: {}", repair.comment()),
@@ -122,7 +122,7 @@ mod tests {
     use crate::foreign::tests::device;
 
     /// What is reported about two files, as far as it is not an exception.
-    fn told(repairs: &[Repair], before: &str, after: &str) -> Vec<String> {
+    fn reported(repairs: &[Repair], before: &str, after: &str) -> Vec<String> {
         let (before, after) = (device(before), device(after));
         let mut checked = Checked::default();
         except(repairs, &before, differences(&before, &after), &mut checked);
@@ -135,7 +135,7 @@ mod tests {
             format!("[2000]\nParameterName=a\nObjectType=7\nDataType=9\nAccessType=ro\n{value}PDOMapping=0\n")
         };
         let none = text("");
-        let lost = |value: &str| told(&[], &text(&format!("DefaultValue={value}\n")), &none);
+        let lost = |value: &str| reported(&[], &text(&format!("DefaultValue={value}\n")), &none);
         assert_eq!(lost("plain").len(), 1);
         assert_eq!(lost("ω"), [""; 0]);
         assert_eq!(lost(&"x".repeat(LONGEST_DEFAULT)).len(), 1);

@@ -252,7 +252,7 @@ PDOMapping=0
 ";
 
     /// What is reported when a part of the file is another.
-    fn told(part: &str, other: &str) -> Vec<String> {
+    fn reported(part: &str, other: &str) -> Vec<String> {
         assert!(LAMP.contains(part), "{part}");
         let (before, after) = (device(LAMP), device(&LAMP.replacen(part, other, 1)));
         differences(&before, &after).iter().map(ToString::to_string).collect()
@@ -281,7 +281,7 @@ PDOMapping=0
             ("ObjectType=0x8", "ObjectType=0x9", "2001h: object type: Array, then Record"),
             ("=first", "=second", "2001h.1: name: \"first\", then \"second\""),
         ] {
-            assert_eq!(told(part, other), [expected]);
+            assert_eq!(reported(part, other), [expected]);
         }
     }
 

@@ -115,13 +115,13 @@ fn turn(name: &str, bytes: &[u8]) -> Result<Turned, String> {
     let mut written = SourceMap::new();
     let text = written.add("import.od.yaml", imported.text.as_str());
     let specification = compile(&mut written, text, &mut NoFiles);
-    let system = specification.system.as_ref().ok_or_else(|| told(&specification.diagnostics))?;
+    let system = specification.system.as_ref().ok_or_else(|| reported(&specification.diagnostics))?;
     let eds = write_eds(system, device(&specification)?);
     let original = compiled.system.ok_or("no model")?;
     Ok(Turned { original, imported, eds })
 }
 
-fn told(diagnostics: &Diagnostics) -> String {
+fn reported(diagnostics: &Diagnostics) -> String {
     let lines: Vec<String> = diagnostics.iter().map(first_line).take(3).collect();
     format!("the import does not compile: {}", lines.join("; "))
 }
@@ -227,7 +227,7 @@ mod tests {
         let mut checked = Checked::default();
         run(Step::Reading, "lamp.eds", &large, &mut checked);
         assert!(!checked.passed(Step::Reading));
-        let told = turn("lamp.yaml", b"od-spec: 1\n").err();
-        assert!(told.is_some_and(|told| told.starts_with("no model")));
+        let reported = turn("lamp.yaml", b"od-spec: 1\n").err();
+        assert!(reported.is_some_and(|reported| reported.starts_with("no model")));
     }
 }

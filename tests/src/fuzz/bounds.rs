@@ -70,8 +70,8 @@ impl Bound {
 
 /// What a step gives, or that it panics.
 pub(super) fn caught<T>(step: impl FnOnce() -> T) -> Result<T, String> {
-    let told = |panic: Box<dyn Any + Send>| format!("panicked: {}", foreign::message(panic.as_ref()));
-    catch_unwind(AssertUnwindSafe(step)).map_err(told)
+    let reported = |panic: Box<dyn Any + Send>| format!("panicked: {}", foreign::message(panic.as_ref()));
+    catch_unwind(AssertUnwindSafe(step)).map_err(reported)
 }
 
 impl Bounds {
@@ -126,8 +126,8 @@ mod tests {
         let size = Size { bytes: 50, described: 3 };
         let said = |peak| bounds.complaint(size, Used { peak, total: 0 }).map(|one| one.what);
         assert_eq!(said(290), None);
-        let told = "291 bytes at one time, more than 100 and 2 for each of 50, and 30 for each of 3 objects and entries";
-        assert_eq!(said(291).as_deref(), Some(told));
+        let reported = "291 bytes at one time, more than 100 and 2 for each of 50, and 30 for each of 3 objects and entries";
+        assert_eq!(said(291).as_deref(), Some(reported));
     }
 
     #[test]

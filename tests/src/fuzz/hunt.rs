@@ -194,11 +194,11 @@ mod tests {
     #[test]
     fn a_mutant_that_takes_too_long_is_reported() {
         let seeds = seed("[stuck]\n");
-        let told = Mutex::new(BTreeSet::new());
+        let reported = Mutex::new(BTreeSet::new());
         let hunted = Hunt { mutants: 20, patience: Duration::from_millis(50), ..plan(&seeds) };
         hunt(&Touchy, hunted, |number, _| {
-            told.lock().unwrap().insert(number);
+            reported.lock().unwrap().insert(number);
         });
-        assert!(!told.lock().unwrap().is_empty());
+        assert!(!reported.lock().unwrap().is_empty());
     }
 }

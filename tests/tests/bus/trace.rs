@@ -28,7 +28,7 @@ fn fraction(text: &str) -> (i128, i128) {
 }
 
 /// Whether a value is reported as the dump says that it is to be understood.
-fn is_told(dump: &Json, entry: &Json, raw: i128, told: &str) -> bool {
+fn is_told(dump: &Json, entry: &Json, raw: i128, described: &str) -> bool {
     let named = entry.get("named-type").map(|name| {
         let types = dump["types"].as_array().unwrap();
         types.iter().find(|one| one["name"] == *name).unwrap()
@@ -36,19 +36,19 @@ fn is_told(dump: &Json, entry: &Json, raw: i128, told: &str) -> bool {
     if let Some(special) =
         entry["special"].as_array().into_iter().flatten().find(|one| number(&one["value"]) == raw)
     {
-        return told.contains(special["name"].as_str().unwrap());
+        return described.contains(special["name"].as_str().unwrap());
     }
     if let Some(values) = named.and_then(|named| named["values"].as_array()) {
         let known = values.iter().find(|value| number(&value["value"]) == raw);
-        return known.map_or(told.starts_with(&raw.to_string()), |value| {
-            told.starts_with(value["name"].as_str().unwrap())
+        return known.map_or(described.starts_with(&raw.to_string()), |value| {
+            described.starts_with(value["name"].as_str().unwrap())
         });
     }
     if named.is_some_and(|named| named["bits"].is_array()) {
-        let pattern = told.split([' ', ',']).next().unwrap();
+        let pattern = described.split([' ', ',']).next().unwrap();
         return i128::from_str_radix(pattern.strip_prefix("0x").unwrap(), 16).unwrap() == raw;
     }
-    let amount = told.split(' ').next().unwrap();
+    let amount = described.split(' ').next().unwrap();
     let unit = entry.get("unit").filter(|unit| !unit.is_null());
     let Some(unit) = unit else { return amount.parse() == Ok(raw) };
     let unit = dump["units"].as_array().unwrap().iter().find(|one| one["name"] == *unit).unwrap();
@@ -56,7 +56,8 @@ fn is_told(dump: &Json, entry: &Json, raw: i128, told: &str) -> bool {
     let (on, od) = unit.get("offset").map_or((0, 1), |offset| (number(&offset[0]), number(&offset[1])));
     let (told_n, told_d) = fraction(amount);
     // raw × n/d + on/od = reported
-    (raw * n * od + on * d) * told_d == told_n * d * od && told.contains(unit["symbol"].as_str().unwrap())
+    (raw * n * od + on * d) * told_d == told_n * d * od
+        && described.contains(unit["symbol"].as_str().unwrap())
 }
 
 /// Maps every entry that a TPDO can carry, packs it with values by chance, and reads what is reported about it.
@@ -81,13 +82,13 @@ fn try_device<D: Dictionary<'static>>(path: &str, stem: &str, key: &str, mut dic
             entries += 1;
             for _ in 0..50 {
                 put(&mut dictionary, index, sub, &mut random);
-                let told = decoder.frame(&pack(&mut dictionary));
+                let described = decoder.frame(&pack(&mut dictionary));
                 let held = dictionary.read(index, sub).unwrap().to_vec();
                 let raw = raw(entry["type"].as_str().unwrap(), &held);
                 let place = if sub == 0 { format!("{index:04X}h ") } else { format!("{index:04X}h.{sub} ") };
-                let value = told.split_once(&place).and_then(|(_, text)| text.split_once(" = "));
-                let (_, value) = value.unwrap_or_else(|| panic!("{place} is not reported: {told}"));
-                assert!(is_told(&dump, entry, raw, value), "{key} {place}{raw}: {told}");
+                let value = described.split_once(&place).and_then(|(_, text)| text.split_once(" = "));
+                let (_, value) = value.unwrap_or_else(|| panic!("{place} is not reported: {described}"));
+                assert!(is_told(&dump, entry, raw, value), "{key} {place}{raw}: {described}");
                 values += 1;
             }
         }

@@ -173,7 +173,7 @@ fn flat(text: &str) -> String {
 /// The devices' objects of an index, each different one once.
 /// A text as the English document shows it: what exists in another language only is marked, unless it has no words, as
 /// `Bit 9` and `0..3` have none.
-fn told(text: &Text) -> String {
+fn reported(text: &Text) -> String {
     let shown = flat(text.get("en").unwrap_or_default());
     let mut words = shown.split(|sign: char| !sign.is_alphabetic());
     let has_words = words.any(|word| word.chars().count() > 2 && word.chars().any(char::is_lowercase));
@@ -337,7 +337,7 @@ fn check(system: &System, content: &TableContent, tables: &[&Table]) {
             // Titles of columns carry no mark.
             let title = |text: &Text| flat(text.get("en").unwrap_or_default());
             assert_eq!(table.columns, columns.iter().map(title).collect::<Vec<_>>());
-            let cells: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(told).collect()).collect();
+            let cells: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(reported).collect()).collect();
             assert_eq!(table.rows, cells);
         }
         TableContent::Glossary => {
@@ -444,7 +444,7 @@ fn check_ladder(system: &System, table: &Table, ladder: &LadderTable) {
     let shown: Vec<EntryId> = table.rows.iter().map(|row| entry_id(table.cell(row, "Object"))).collect();
     assert_eq!(shown, named);
     if !ladder.labels.is_empty() {
-        let labels: Vec<String> = ladder.labels.iter().map(told).collect();
+        let labels: Vec<String> = ladder.labels.iter().map(reported).collect();
         let shown: Vec<&str> = table.rows.iter().map(|row| table.cell(row, "Meaning")).collect();
         assert_eq!(shown, labels);
     }
@@ -479,7 +479,7 @@ fn check_switches(system: &System, table: &Table, switches: &[Switch]) {
             (SwitchSide::Above, SwitchBack::By(_)) => (">", on.checked_sub(back).unwrap()),
         };
         let value = |cell: &str, symbol: &str| decimal(cell.strip_suffix(symbol).unwrap().trim());
-        assert_eq!(table.cell(row, "Switches"), told(&switch.what));
+        assert_eq!(table.cell(row, "Switches"), reported(&switch.what));
         let (shown, number) = table.cell(row, "On at").split_once(' ').unwrap();
         assert_eq!((shown, value(number, symbol)), (sign, on));
         assert_eq!(value(table.cell(row, "Off again at"), symbol), off);
@@ -505,12 +505,12 @@ fn listed(system: &System, entries: &[EntryId]) -> Vec<String> {
 fn check_flow(system: &System, table: &Table, flow: &Flow) {
     assert_eq!(table.rows.len(), flow.blocks.len());
     for (row, block) in table.rows.iter().zip(&flow.blocks) {
-        assert_eq!(table.cell(row, "Block"), told(&block.name));
+        assert_eq!(table.cell(row, "Block"), reported(&block.name));
         let from: Vec<String> = block
             .from
             .iter()
             .map(|inflow| {
-                let (name, carries) = (told(&flow.blocks[inflow.block].name), told(&inflow.carries));
+                let (name, carries) = (reported(&flow.blocks[inflow.block].name), reported(&inflow.carries));
                 if carries.is_empty() { name } else { format!("{name} ({carries})") }
             })
             .collect();
@@ -519,7 +519,7 @@ fn check_flow(system: &System, table: &Table, flow: &Flow) {
             block.bits.as_ref().map(|bits| format!("{}, Bit {}: {}", bits.named_type, bits.first, bits.name));
         let entries: Vec<String> = listed(system, &block.entries).into_iter().chain(bits).collect();
         assert_eq!(cell_if_there(table, row, "Entries"), entries.join("\n"));
-        assert_eq!(cell_if_there(table, row, "Function"), told(&block.does));
+        assert_eq!(cell_if_there(table, row, "Function"), reported(&block.does));
     }
 }
 
@@ -533,12 +533,18 @@ fn check_axis(system: &System, table: &Table, axis: &Axis) {
     assert_eq!(table.rows.len(), axis.marks.len() + axis.spans.len());
     let (marks, spans) = table.rows.split_at(axis.marks.len());
     for (row, mark) in marks.iter().zip(&axis.marks) {
-        assert_eq!((table.cell(row, "Kind"), table.cell(row, "Name")), ("Mark", told(&mark.name).as_str()));
+        assert_eq!(
+            (table.cell(row, "Kind"), table.cell(row, "Name")),
+            ("Mark", reported(&mark.name).as_str())
+        );
         assert_eq!(cell_if_there(table, row, "Entries"), listed(system, &mark.entries).join("\n"));
     }
     for (row, span) in spans.iter().zip(&axis.spans) {
-        assert_eq!((table.cell(row, "Kind"), table.cell(row, "Name")), ("Span", told(&span.name).as_str()));
-        let name = |at: usize| told(&axis.marks[at].name);
+        assert_eq!(
+            (table.cell(row, "Kind"), table.cell(row, "Name")),
+            ("Span", reported(&span.name).as_str())
+        );
+        let name = |at: usize| reported(&axis.marks[at].name);
         let (from, to) = match span.reach {
             AxisReach::Between(from, to) => (name(from), name(to)),
             AxisReach::Above(from) => (name(from), "…".to_owned()),
@@ -546,7 +552,7 @@ fn check_axis(system: &System, table: &Table, axis: &Axis) {
         };
         assert_eq!((table.cell(row, "From"), table.cell(row, "To")), (from.as_str(), to.as_str()));
         assert_eq!(cell_if_there(table, row, "Entries"), listed(system, &span.entries).join("\n"));
-        assert_eq!(cell_if_there(table, row, "Meaning"), told(&span.does));
+        assert_eq!(cell_if_there(table, row, "Meaning"), reported(&span.does));
     }
 }
 
@@ -577,7 +583,7 @@ fn check_timing(system: &System, table: &Table, timing: &Timing) {
     }
     for (at, (row, step)) in table.rows[1..].iter().zip(&timing.steps).enumerate() {
         assert_eq!(table.cell(row, "Step"), (at + 1).to_string());
-        assert_eq!(table.cell(row, "Event"), told(&step.event));
+        assert_eq!(table.cell(row, "Event"), reported(&step.event));
         let cause = step.cause.map_or_else(String::new, |cause| cause.to_string());
         assert_eq!(table.cell(row, "Caused by step"), cause);
     }
@@ -764,7 +770,7 @@ fn errata_read_back_as_the_model() {
                 ("Read as", &erratum.reads),
                 ("Why", &erratum.because),
             ] {
-                assert_eq!(errata.cell(row, title), told(text), "erratum {}", at + 1);
+                assert_eq!(errata.cell(row, title), reported(text), "erratum {}", at + 1);
             }
         }
     }

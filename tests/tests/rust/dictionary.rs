@@ -369,12 +369,12 @@ fn communication_objects_keep_their_own_rules() {
     assert_eq!(write(0x1010, 1, u64::from(u32::from_le_bytes(*b"load")), 4), Err(AbortCode::NOT_STORED));
     assert_eq!(write(0x1011, 1, u64::from(u32::from_le_bytes(*b"load")), 4), Ok(()));
     assert_eq!(write(0x1011, 1, 0, 4), Err(AbortCode::NOT_STORED));
-    let mut told = log();
-    assert!(od.write(0x1010, 1, b"save", &mut told).is_ok());
-    assert_eq!(told.changed, [], "a command is no value");
-    told.veto = Some(AbortCode::HARDWARE);
+    let mut reported = log();
+    assert!(od.write(0x1010, 1, b"save", &mut reported).is_ok());
+    assert_eq!(reported.changed, [], "a command is no value");
+    reported.veto = Some(AbortCode::HARDWARE);
     assert_eq!(
-        od.write(0x1010, 1, b"save", &mut told),
+        od.write(0x1010, 1, b"save", &mut reported),
         Err(AbortCode::HARDWARE),
         "and is carried out before the answer"
     );

@@ -162,15 +162,15 @@ fn a_specification_with_mistakes_is_an_error_of_the_build() {
         let text = |bytes| String::from_utf8(bytes).unwrap();
         (output.status.code(), text(output.stdout), text(output.stderr))
     };
-    let (code, told, shown) = run("err_od0406_default.od.yaml", "");
+    let (code, reported, shown) = run("err_od0406_default.od.yaml", "");
     assert_eq!(code, Some(1));
-    insta::assert_snapshot!("builder_error", format!("{told}---\n{shown}"));
+    insta::assert_snapshot!("builder_error", format!("{reported}---\n{shown}"));
     assert!(!out.exists(), "nothing is written");
-    let (code, told, _) = run("ok_minimal.od.yaml", "stranger");
+    let (code, reported, _) = run("ok_minimal.od.yaml", "stranger");
     assert_eq!(code, Some(1));
-    insta::assert_snapshot!("builder_unknown_device", told);
-    let (code, told, _) = run("missing.od.yaml", "");
+    insta::assert_snapshot!("builder_unknown_device", reported);
+    let (code, reported, _) = run("missing.od.yaml", "");
     assert_eq!(code, Some(1));
-    insta::assert_snapshot!("builder_missing_file", told);
+    insta::assert_snapshot!("builder_missing_file", reported);
     assert!(!out.exists(), "nothing is written");
 }

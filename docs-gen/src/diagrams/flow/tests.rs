@@ -72,8 +72,8 @@ fn check(blocks: &[DrawnBlock], picture: &FlowPicture) {
         // Nothing of a text is lost, and all of it is inside.
         let shown: Vec<&str> = one.lines.iter().flat_map(|line| line.text.split_whitespace()).collect();
         let block = &blocks[at];
-        let told = std::iter::once(&block.name).chain(block.lines.iter().map(|line| &line.text));
-        assert_eq!(shown, told.flat_map(|text| text.split_whitespace()).collect::<Vec<_>>());
+        let reported = std::iter::once(&block.name).chain(block.lines.iter().map(|line| &line.text));
+        assert_eq!(shown, reported.flat_map(|text| text.split_whitespace()).collect::<Vec<_>>());
         for line in &one.lines {
             let half = i64::from(room(&line.text)) / 2;
             let (x, y) = (i64::from(line.x), i64::from(line.y));

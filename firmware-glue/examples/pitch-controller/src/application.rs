@@ -51,7 +51,7 @@ pub struct Drive<'m> {
     rest: u32,
     stepped: Instant,
     /// The error that was reported to the node.
-    told: Option<u16>,
+    reported: Option<u16>,
     #[cfg(feature = "names")]
     console: crate::uart::Uart,
 }
@@ -66,7 +66,7 @@ impl<'m> Drive<'m> {
             target: 0,
             rest: 0,
             stepped: Instant::ZERO,
-            told: None,
+            reported: None,
             #[cfg(feature = "names")]
             console: crate::uart::Uart::Console.open(),
         }
@@ -125,12 +125,12 @@ impl<'m> Drive<'m> {
 
     /// Looks for errors. The one that this drive has: the DC link is below its lowest voltage (6510h.4), as a client can set it.
     pub fn supervise(&mut self, od: &mut Pmc, now: Instant) -> Option<Report> {
-        match self.told {
+        match self.reported {
             None if is_under_voltage(od) => {
                 // From any state; one that is a fault already stays.
                 let _ = self.machine.event(od, &mut Guards, Transition::T13);
                 let code = errors::UNDER_VOLTAGE_IN_THE_DC_LINK;
-                self.told = Some(code);
+                self.reported = Some(code);
                 od.set_error_code(code);
                 // In milliseconds since power-on; 1003h is the node's affair.
                 let [a, b, c, d, ..] = now.as_micros().saturating_div(1000).to_le_bytes();
@@ -138,7 +138,7 @@ impl<'m> Drive<'m> {
                 Some(Report::Raised(Emergency::new(code)))
             }
             Some(code) if !self.is_in_fault() => {
-                self.told = None;
+                self.reported = None;
                 od.set_error_code(errors::NO_ERROR);
                 Some(Report::Cleared(code))
             }
@@ -197,7 +197,7 @@ impl Application<Pmc> for Drive<'_> {
             _ => {}
         }
         #[cfg(feature = "names")]
-        crate::names::tell(&mut self.console, entry);
+        crate::names::print(&mut self.console, entry);
     }
 }
 
@@ -225,7 +225,7 @@ impl NodeHandler<Pmc> for Drive<'_> {
             self.controlword = Controlword(0);
             self.target = 0;
             self.rest = 0;
-            self.told = None;
+            self.reported = None;
             od.set_dc_link_circuit_voltage(DC_LINK);
         }
     }

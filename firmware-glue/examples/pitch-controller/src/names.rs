@@ -5,7 +5,7 @@ use crate::slcan::Wire;
 use crate::uart::Uart;
 
 /// Reports a write.
-pub fn tell(console: &mut Uart, entry: Entry) {
+pub fn print(console: &mut Uart, entry: Entry) {
     for byte in entry.name().bytes().chain(*b" written\r\n") {
         while console.send(byte).is_err() {}
     }

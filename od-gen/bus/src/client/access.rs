@@ -339,8 +339,8 @@ impl<B: Bus> Client<B> {
             if let Some(bytes) = answer.and_then(|frame| frame.bytes().map(<[u8]>::len))
                 && bytes < 8
             {
-                let told = transfer.cancel(AbortCode::COMMAND);
-                self.bus.send(&told)?;
+                let reported = transfer.cancel(AbortCode::COMMAND);
+                self.bus.send(&reported)?;
                 return Err(AccessError::Short(bytes));
             }
             let step = match heard {

@@ -23,7 +23,7 @@ pub enum Holds {
     /// A value that can only be written.
     WriteOnly,
     /// A value that the node does not give now, or that was lost on the way.
-    Untold(AccessError),
+    Unreported(AccessError),
 }
 
 /// No device has an object here (CiA 301 v4.02, table 37: reserved).
@@ -74,7 +74,7 @@ impl<'c, B: Bus> Prober<'c, B> {
                 let listed = match &holds {
                     Holds::Bytes(bytes) => <[u8; 1]>::try_from(bytes.as_slice()).ok().map(|[count]| count),
                     Holds::WriteOnly => None,
-                    Holds::Untold(_) => Some(0),
+                    Holds::Unreported(_) => Some(0),
                 };
                 found.push(Found { id: entry(0), holds });
                 let Some(listed) = listed else { return Ok(found) };
@@ -85,10 +85,10 @@ impl<'c, B: Bus> Prober<'c, B> {
         for sub in 1..=LAST {
             match self.entry(entry(sub))? {
                 // Some nodes refuse any element at all. What has no value yet is there, as in a list of errors.
-                Asked::Has(Holds::Untold(ref why))
+                Asked::Has(Holds::Unreported(ref why))
                     if sub > listed
                         && !matches!(why, AccessError::Refused(AbortCode::NO_DATA))
-                        && matches!(self.entry(entry(LAST))?, Asked::Has(Holds::Untold(_))) =>
+                        && matches!(self.entry(entry(LAST))?, Asked::Has(Holds::Unreported(_))) =>
                 {
                     break;
                 }
@@ -113,7 +113,7 @@ impl<'c, B: Bus> Prober<'c, B> {
             Err(AccessError::Refused(code)) if code == self.absent => Asked::NoObject,
             Err(AccessError::Refused(AbortCode::WRITE_ONLY)) => Asked::Has(Holds::WriteOnly),
             Err(error) if error.is_of_node() => return Err(error),
-            Err(error) => Asked::Has(Holds::Untold(error)),
+            Err(error) => Asked::Has(Holds::Unreported(error)),
         })
     }
 }

@@ -25,7 +25,7 @@ pub struct Contradiction {
     /// Where it is.
     pub id: EntryId,
     /// What the node says.
-    pub told: u32,
+    pub reported: u32,
     /// What is stated of it.
     pub stated: u32,
 }
@@ -34,7 +34,7 @@ pub struct Contradiction {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Remark {
     /// It does not report, or reports as 0, its revision or serial number, which is stated.
-    Untold(EntryId),
+    Unreported(EntryId),
     /// It has a higher minor revision: it can do more, and the rest as stated.
     Newer(Contradiction),
     /// It is another one.
@@ -59,16 +59,16 @@ pub fn recognize<B: Bus>(
     let facts = stated.stated().map(|(id, number)| (Fact::Device, id, number));
     let mut remarks = Vec::new();
     for (fact, id, stated) in facts.chain(revision).chain(serial) {
-        let told = match client.read(node, id) {
+        let reported = match client.read(node, id) {
             Ok(bytes) => bytes.try_into().map(u32::from_le_bytes).ok(),
             Err(error) if error.is_of_entry() => None,
             Err(error) => return Err(error),
         };
-        let differs = told.filter(|told| *told != stated);
-        let differs = differs.map(|told| Contradiction { fact, id, told, stated });
-        match (fact, told, differs) {
-            (Fact::Revision | Fact::Serial, None | Some(0), _) => remarks.push(Remark::Untold(id)),
-            (Fact::Revision, _, Some(one)) if is_extension(one.told, one.stated) => {
+        let differs = reported.filter(|reported| *reported != stated);
+        let differs = differs.map(|reported| Contradiction { fact, id, reported, stated });
+        match (fact, reported, differs) {
+            (Fact::Revision | Fact::Serial, None | Some(0), _) => remarks.push(Remark::Unreported(id)),
+            (Fact::Revision, _, Some(one)) if is_extension(one.reported, one.stated) => {
                 remarks.push(Remark::Newer(one));
             }
             (Fact::Revision | Fact::Serial, _, Some(one)) => remarks.push(Remark::Contradicts(one)),
@@ -89,7 +89,7 @@ pub enum Revision {
     /// It is another one.
     Other,
     /// The node does not report it.
-    Untold,
+    Unreported,
 }
 
 impl Revision {
@@ -98,17 +98,17 @@ impl Revision {
         let number = |identity: &Identity| identity.revision.filter(|revision| *revision != 0);
         match (number(node), number(device)) {
             (_, None) => Self::Same,
-            (None, Some(_)) => Self::Untold,
-            (Some(told), Some(stated)) if told == stated => Self::Same,
-            (Some(told), Some(stated)) if is_extension(told, stated) => Self::Newer,
+            (None, Some(_)) => Self::Unreported,
+            (Some(reported), Some(stated)) if reported == stated => Self::Same,
+            (Some(reported), Some(stated)) if is_extension(reported, stated) => Self::Newer,
             (Some(_), Some(_)) => Self::Other,
         }
     }
 }
 
 /// CiA 301, 1018h.3: with another major revision (the upper 16 bits) a device behaves otherwise; a higher minor one only adds something.
-const fn is_extension(told: u32, stated: u32) -> bool {
-    told >> 16 == stated >> 16 && told > stated
+const fn is_extension(reported: u32, stated: u32) -> bool {
+    reported >> 16 == stated >> 16 && reported > stated
 }
 
 /// What a node says of itself.

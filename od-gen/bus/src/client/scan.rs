@@ -86,9 +86,9 @@ impl Identity {
 
     /// Whether a node can be a device: device type, vendor, product and name are the same, as far as the dictionary states them.
     pub fn fits(&self, device: &Self) -> bool {
-        let told = |(id, stated)| self.number(id).is_some_and(|told| told == stated);
+        let reported = |(id, stated)| self.number(id).is_some_and(|reported| reported == stated);
         device.stated().next().is_some()
-            && device.stated().all(told)
+            && device.stated().all(reported)
             && (self.name.is_none() || device.name.is_none() || self.name == device.name)
     }
 

@@ -146,8 +146,12 @@ impl Program<'_, '_> {
         refusal(self.0.write(5, Self::id(0x1F51), &[code]))
     }
 
-    fn load(&mut self, data: &[u8], told: impl FnMut(usize) -> ControlFlow<()>) -> Result<(), AccessError> {
-        self.0.load(5, Self::id(0x1F50), data, Duration::from_secs(1), told)
+    fn load(
+        &mut self,
+        data: &[u8],
+        reported: impl FnMut(usize) -> ControlFlow<()>,
+    ) -> Result<(), AccessError> {
+        self.0.load(5, Self::id(0x1F50), data, Duration::from_secs(1), reported)
     }
 
     /// 1F51h, 1F56h and 1F57h.
@@ -185,11 +189,11 @@ fn a_program_is_loaded_in_the_order_of_cia_302() {
         assert_eq!([1, 2].map(|code| program.command(code)), [refused, refused]);
         let data: Vec<u8> = (0..=255).cycle().take(3001).collect();
         let mut most = 0;
-        let told = |sent| {
+        let reported = |sent| {
             most = most.max(sent);
             ControlFlow::Continue(())
         };
-        program.load(&data, told).unwrap();
+        program.load(&data, reported).unwrap();
         assert_eq!(most, data.len());
         let [state, identification, flash] = program.says();
         assert_eq!((state, flash), (0, 0));
@@ -263,8 +267,8 @@ fn a_node_without_blocks_gets_segments() {
         client.write(5, Program::id(0x1F51), &[code]).unwrap();
     }
     let data = [9; 1000];
-    let told = |_| ControlFlow::Continue(());
-    client.load(5, Program::id(0x1F50), &data, Duration::from_secs(1), told).unwrap();
+    let reported = |_| ControlFlow::Continue(());
+    client.load(5, Program::id(0x1F50), &data, Duration::from_secs(1), reported).unwrap();
     assert_eq!(client.read(5, Program::id(0x1F50)).unwrap(), data);
 }
 
@@ -317,9 +321,9 @@ fn a_scan_hears_who_does_not_answer() {
         client.command(1, 5).unwrap();
         client.command(2, 6).unwrap();
         let found = scan(client, Duration::from_millis(100)).unwrap();
-        let told: Vec<_> =
+        let reported: Vec<_> =
             found.iter().map(|one| (one.node, one.state, matches!(one.answer, Answer::Of(_)))).collect();
-        assert_eq!(told, [(5, Some(5), true), (6, Some(4), false)]);
+        assert_eq!(reported, [(5, Some(5), true), (6, Some(4), false)]);
         assert_eq!(found[1].answer, Answer::None);
     });
 }
@@ -365,8 +369,8 @@ fn two_devices_with_one_node_id_answer_every_time() {
             let bus = Virtual { bus, heard: VecDeque::new(), now: 0 };
             let mut client = Client::new(Shared { bus, twice }, Duration::from_millis(500));
             let found = scan(&mut client, Duration::from_millis(100)).unwrap();
-            let told: Vec<_> = found.iter().map(|one| (one.node, one.answer == Answer::Two)).collect();
-            assert_eq!(told, [(5, is_shared), (6, false)]);
+            let reported: Vec<_> = found.iter().map(|one| (one.node, one.answer == Answer::Two)).collect();
+            assert_eq!(reported, [(5, is_shared), (6, false)]);
         });
     }
 }
@@ -554,13 +558,13 @@ fn a_node_that_obeys_the_client_does_not_start_again() {
 #[test]
 fn a_higher_minor_revision_is_newer_and_not_another_one() {
     let of = |revision| Identity { revision, ..Identity::default() };
-    let relation = |told, stated| Revision::of(&of(told), &of(stated));
+    let relation = |reported, stated| Revision::of(&of(reported), &of(stated));
     assert_eq!(relation(Some(0x0001_0002), Some(0x0001_0002)), Revision::Same);
     assert_eq!(relation(Some(0x0001_0003), Some(0x0001_0002)), Revision::Newer);
     assert_eq!(relation(Some(0x0001_0001), Some(0x0001_0002)), Revision::Other);
     assert_eq!(relation(Some(0x0002_0002), Some(0x0001_0002)), Revision::Other);
-    for untold in [None, Some(0)] {
-        assert_eq!(relation(untold, Some(0x0001_0002)), Revision::Untold);
-        assert_eq!(relation(Some(0x0001_0002), untold), Revision::Same, "nothing is stated");
+    for unreported in [None, Some(0)] {
+        assert_eq!(relation(unreported, Some(0x0001_0002)), Revision::Unreported);
+        assert_eq!(relation(Some(0x0001_0002), unreported), Revision::Same, "nothing is stated");
     }
 }

@@ -14,7 +14,7 @@ use od_spec::model::EntryId;
 use self::beat::{Beat, Heard, Stated};
 use crate::restarts::{ERROR_CONTROL, Restarts};
 use crate::slcan::CanFrame;
-use crate::trace::{Decoder, Service, Told, What};
+use crate::trace::{Decoder, Described, Service, What};
 
 /// What is reported.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -107,7 +107,7 @@ impl<'a> Monitor<'a> {
     /// Takes what is on the bus; the lines that report it.
     pub fn take(&mut self, what: &What, now: u64) -> Vec<String> {
         self.frames += 1;
-        let told = self.decoder.told(what);
+        let described = self.decoder.described(what);
         let mut lines = Vec::new();
         let mut is_news = false;
         if let What::Frame(CanFrame::Standard(frame)) = what {
@@ -141,28 +141,29 @@ impl<'a> Monitor<'a> {
                     None => watched.beat.is_guarded(),
                 }
             }
-            if let (Service::Emergency, Some(node)) = (told.service, told.node) {
-                let text = told.text.split_once("EMCY  ").map_or(told.text.as_str(), |(_, text)| text);
+            if let (Service::Emergency, Some(node)) = (described.service, described.node) {
+                let text =
+                    described.text.split_once("EMCY  ").map_or(described.text.as_str(), |(_, text)| text);
                 self.nodes.entry(node).or_default().emergency = Some((now, text.to_owned()));
             }
             let asked = if frame.bytes().is_some() { Asked::No } else { Asked::Yes };
-            let before = self.last.insert((id, asked), told.text.clone());
-            is_news |= before.is_none_or(|before| before != told.text);
+            let before = self.last.insert((id, asked), described.text.clone());
+            is_news |= before.is_none_or(|before| before != described.text);
         } else {
             is_news = true;
         }
-        if self.is_shown(&told, is_news) {
-            lines.push(self.line(now, &told.text));
+        if self.is_shown(&described, is_news) {
+            lines.push(self.line(now, &described.text));
         }
         lines
     }
 
-    fn is_shown(&self, told: &Told, is_news: bool) -> bool {
-        let is_asked_for = self.shows.only.contains(&told.service);
+    fn is_shown(&self, described: &Described, is_news: bool) -> bool {
+        let is_asked_for = self.shows.only.contains(&described.service);
         if !is_asked_for && !self.shows.only.is_empty() {
             return false;
         }
-        match (self.shows.detail, told.service) {
+        match (self.shows.detail, described.service) {
             (Detail::Everything, _) => true,
             (Detail::Changes, Service::Nmt | Service::Emergency | Service::Sdo | Service::Lss) => true,
             (Detail::Changes, Service::Pdo | Service::Heartbeat | Service::Unknown) => is_news,
@@ -181,7 +182,7 @@ impl<'a> Monitor<'a> {
         }
         let shown = self.shows.only.is_empty() || self.shows.only.contains(&Service::Heartbeat);
         lost.retain(|_| shown);
-        let tell = |(node, silence): (u8, beat::Silence)| {
+        let describe = |(node, silence): (u8, beat::Silence)| {
             let (name, every, silent) = (self.name(node), seconds(silence.period), seconds(silence.since));
             let text = match silence.last {
                 Some(_) => format!("{name}  heartbeat lost: none for {silent}, where one came every {every}"),
@@ -189,7 +190,7 @@ impl<'a> Monitor<'a> {
             };
             self.line(now, &text)
         };
-        lost.into_iter().map(tell).collect()
+        lost.into_iter().map(describe).collect()
     }
 
     /// When something is late, unless it comes before.

@@ -34,26 +34,26 @@ fn lamp() -> System {
 /// A monitor with what it reported.
 struct Watching<'a> {
     monitor: Monitor<'a>,
-    told: Vec<String>,
+    described: Vec<String>,
 }
 
 impl<'a> Watching<'a> {
     fn new(system: &'a System, shows: Shows) -> Self {
         let decoder = Decoder::new(vec![Node::new(5, system, &system.devices[0])]);
-        Self { monitor: Monitor::new(decoder, shows, 0), told: Vec::new() }
+        Self { monitor: Monitor::new(decoder, shows, 0), described: Vec::new() }
     }
 
     fn hear(&mut self, milliseconds: u64, id: u16, bytes: &[u8]) {
         self.wait(milliseconds);
         let frame = Frame::data(CanId::new(id).unwrap(), bytes).unwrap();
         let lines = self.monitor.take(&What::Frame(CanFrame::Standard(frame)), milliseconds * 1000);
-        self.told.extend(lines);
+        self.described.extend(lines);
     }
 
     /// Lets time pass, as a program does that sleeps until the deadline.
     fn wait(&mut self, milliseconds: u64) {
         while let Some(at) = self.monitor.next_deadline().filter(|at| *at <= milliseconds * 1000) {
-            self.told.extend(self.monitor.poll(at));
+            self.described.extend(self.monitor.poll(at));
         }
     }
 }
@@ -75,7 +75,7 @@ fn what_changes_is_reported() {
     watching.hear(4100, 0x085, &[0x10, 0x42, 0x09, 0, 0, 0, 0, 0]);
     watching.hear(4200, 0x709, &[5]);
     assert_eq!(
-        watching.told,
+        watching.described,
         [
             "(0.010)  705h  lamp (node 5)  boot-up",
             "(1.000)  705h  lamp (node 5)  heartbeat  pre-operational",
@@ -104,7 +104,7 @@ fn a_heartbeat_that_does_not_come_is_lost_and_comes_back() {
     watching.hear(5000, 0x705, &[5]);
     watching.wait(20_000);
     assert_eq!(
-        watching.told,
+        watching.described,
         [
             "(0.100)  705h  lamp (node 5)  heartbeat  operational",
             "(1.600)  lamp (node 5)  heartbeat lost: none for 0.6 s, where one came every 0.3 s",
@@ -125,7 +125,7 @@ fn a_node_that_never_says_anything_is_reported_once() {
     let mut watching = Watching::new(&system, Shows::default());
     watching.wait(60_000);
     assert_eq!(
-        watching.told,
+        watching.described,
         ["(2.000)  lamp (node 5)  no heartbeat for 2.0 s, where 1017h says one every 1.0 s"]
     );
 }
@@ -138,11 +138,11 @@ fn a_delayed_heartbeat_and_one_that_is_asked_for_are_not_lost() {
     for at in [0, 1000, 2900, 3000, 4000] {
         watching.hear(at, 0x705, &[5]);
     }
-    assert_eq!(watching.told.len(), 1, "{:?}", watching.told);
+    assert_eq!(watching.described.len(), 1, "{:?}", watching.described);
     let ask = Frame::remote(CanId::new(0x705).unwrap(), 1).unwrap();
     watching.monitor.take(&What::Frame(CanFrame::Standard(ask)), 4_500_000);
     watching.wait(60_000);
-    assert_eq!(watching.told.len(), 1, "{:?}", watching.told);
+    assert_eq!(watching.described.len(), 1, "{:?}", watching.described);
 }
 
 #[test]
@@ -154,12 +154,12 @@ fn what_is_reported_can_be_chosen() {
     watching.hear(1, 0x080, &[]);
     watching.hear(2, 0x080, &[]);
     watching.wait(60_000);
-    assert_eq!(watching.told, ["(0.001)  080h  SYNC", "(0.002)  080h  SYNC"]);
+    assert_eq!(watching.described, ["(0.001)  080h  SYNC", "(0.002)  080h  SYNC"]);
     let mut watching = Watching::new(&system, Shows { detail: Detail::Everything, ..Shows::default() });
     watching.hear(0, 0x080, &[]);
     watching.hear(1, 0x705, &[5]);
     watching.hear(2, 0x705, &[5]);
-    assert_eq!(watching.told.len(), 3);
+    assert_eq!(watching.described.len(), 3);
 }
 
 #[test]
@@ -169,7 +169,7 @@ fn what_a_node_was_read_to_have_counts() {
     let cob_id = EntryId { index: Index(0x1800), sub: SubIndex(1) };
     watching.monitor.learn(5, cob_id, &0x4000_0205u32.to_le_bytes());
     watching.hear(0, 0x205, &[7]);
-    assert_eq!(watching.told, ["(0.000)  205h  lamp (node 5)  TPDO1  2000h brightness = 7 %"]);
+    assert_eq!(watching.described, ["(0.000)  205h  lamp (node 5)  TPDO1  2000h brightness = 7 %"]);
 }
 
 #[test]
@@ -182,5 +182,5 @@ fn a_heartbeat_that_was_switched_off_is_not_missed() {
     watching.hear(2100, 0x605, &[0x2B, 0x17, 0x10, 0, 0, 0, 0, 0]);
     watching.hear(2101, 0x585, &[0x60, 0x17, 0x10, 0, 0, 0, 0, 0]);
     watching.wait(60_000);
-    assert_eq!(watching.told.len(), 3, "{:?}", watching.told);
+    assert_eq!(watching.described.len(), 3, "{:?}", watching.described);
 }

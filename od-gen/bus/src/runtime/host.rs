@@ -117,7 +117,7 @@ impl Application<LiveDictionary<'_>> for Host {
 
     fn changed(&mut self, dictionary: &mut LiveDictionary<'_>, entry: EntryId) {
         // A command is not a value.
-        self.programs.tell(dictionary);
+        self.programs.report(dictionary);
         self.changed.push(entry);
     }
 
@@ -160,7 +160,7 @@ impl Application<LiveDictionary<'_>> for Host {
         whole.extend(data);
         if last {
             self.programs.loaded(entry, &whole);
-            self.programs.tell(dictionary);
+            self.programs.report(dictionary);
             self.domains.insert(entry, whole);
         } else {
             self.coming = Some((entry, whole));
@@ -202,7 +202,7 @@ impl NodeHandler<LiveDictionary<'_>> for Host {
         }
         tell_commands(dictionary);
         self.programs.restart(reset);
-        self.programs.tell(dictionary);
+        self.programs.report(dictionary);
         self.has_restarted = true;
     }
 

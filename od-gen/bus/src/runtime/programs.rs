@@ -85,7 +85,7 @@ impl Programs {
     }
 
     /// Says in 1F51h, 1F56h and 1F57h what there is, as far as the dictionary has these.
-    pub(super) fn tell(&self, dictionary: &mut LiveDictionary<'_>) {
+    pub(super) fn report(&self, dictionary: &mut LiveDictionary<'_>) {
         for (sub, program) in &self.programs {
             let flash = match program.state {
                 State::Missing => FlashStatus::NO_PROGRAM,

@@ -52,7 +52,7 @@ pub enum Service {
 
 /// What a frame says.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Told {
+pub struct Described {
     /// What it belongs to.
     pub service: Service,
     /// The node that it comes from or is for, where it is about one.
@@ -61,7 +61,7 @@ pub struct Told {
     pub text: String,
 }
 
-impl Told {
+impl Described {
     fn new(service: Service, node: Option<u8>, text: impl Into<String>) -> Self {
         Self { service, node, text: text.into() }
     }
@@ -92,13 +92,13 @@ impl<'a> Decoder<'a> {
     }
 
     /// What was on the bus, on one line: identifier, sender or receiver, service, content.
-    pub fn tell(&mut self, what: &What) -> String {
-        self.told(what).text
+    pub fn describe(&mut self, what: &What) -> String {
+        self.described(what).text
     }
 
-    /// [`tell`](Self::tell), with what it belongs to.
-    pub fn told(&mut self, what: &What) -> Told {
-        let unknown = |text| Told::new(Service::Unknown, None, text);
+    /// [`describe`](Self::describe), with what it belongs to.
+    pub fn described(&mut self, what: &What) -> Described {
+        let unknown = |text| Described::new(Service::Unknown, None, text);
         match what {
             What::Frame(CanFrame::Standard(frame)) => self.of_frame(frame),
             What::Frame(CanFrame::Extended { id, length }) => {
@@ -114,13 +114,13 @@ impl<'a> Decoder<'a> {
         self.of_frame(frame).text
     }
 
-    fn of_frame(&mut self, frame: &Frame) -> Told {
+    fn of_frame(&mut self, frame: &Frame) -> Described {
         let id = frame.id().get();
         let content = self.content(id, frame.bytes(), frame.length());
-        Told { text: format!("{id:03X}h  {}", content.text), ..content }
+        Described { text: format!("{id:03X}h  {}", content.text), ..content }
     }
 
-    fn content(&mut self, id: u16, bytes: Option<&[u8]>, length: u8) -> Told {
+    fn content(&mut self, id: u16, bytes: Option<&[u8]>, length: u8) -> Described {
         if let Some(text) = self.of_all(id, bytes) {
             return text;
         }
@@ -132,23 +132,23 @@ impl<'a> Decoder<'a> {
             None => format!("a remote frame for {}", count(length.into())),
         };
         let Some((service, name, node)) = predefined(id) else {
-            return Told::new(Service::Unknown, None, format!("unknown: {content}"));
+            return Described::new(Service::Unknown, None, format!("unknown: {content}"));
         };
         if self.nodes.iter().any(|known| known.id == node) {
             // Its device has no such PDO, or has given it another identifier.
             let text = format!("unknown: {name} that node {node} would have as predefined; {content}");
-            return Told::new(Service::Unknown, Some(node), text);
+            return Described::new(Service::Unknown, Some(node), text);
         }
         let content = match (service, bytes) {
             (Service::Heartbeat, Some([state])) => services::state(*state),
             (Service::Emergency, Some(bytes)) => services::emergency(None, bytes),
             _ => content,
         };
-        Told::new(service, Some(node), format!("node {node} (no dictionary)  {name}  {content}"))
+        Described::new(service, Some(node), format!("node {node} (no dictionary)  {name}  {content}"))
     }
 
     /// What is for all nodes.
-    fn of_all(&mut self, id: u16, bytes: Option<&[u8]>) -> Option<Told> {
+    fn of_all(&mut self, id: u16, bytes: Option<&[u8]>) -> Option<Described> {
         let (service, text) = match (id, bytes) {
             (0x000, Some(bytes)) => return Some(self.nmt(bytes)),
             (0x7E5, Some(bytes)) => (Service::Lss, format!("LSS master  {}", lss::request(bytes))),
@@ -167,7 +167,7 @@ impl<'a> Decoder<'a> {
             }
             _ => return None,
         };
-        Some(Told::new(service, None, text))
+        Some(Described::new(service, None, text))
     }
 
     /// Whether an identifier is that of a service which all nodes share: that of the nodes which say so, or else the usual one.
@@ -181,10 +181,10 @@ impl<'a> Decoder<'a> {
         if stated.peek().is_none() { id == usual } else { stated.any(|cob_id| cob_id == id) }
     }
 
-    fn nmt(&mut self, bytes: &[u8]) -> Told {
+    fn nmt(&mut self, bytes: &[u8]) -> Described {
         let [command, node] = *bytes else {
             let text = format!("NMT  {} where a command has 2", count(bytes.len()));
-            return Told::new(Service::Nmt, None, text);
+            return Described::new(Service::Nmt, None, text);
         };
         for known in self.nodes.iter_mut().filter(|known| node == 0 || known.id == node) {
             if matches!(command, 129 | 130) {
@@ -200,35 +200,35 @@ impl<'a> Decoder<'a> {
             Some(word) => format!("NMT  {word}: {whom}"),
             None => format!("NMT  unknown command {command}: {whom}"),
         };
-        Told::new(Service::Nmt, Some(node).filter(|node| *node != 0), text)
+        Described::new(Service::Nmt, Some(node).filter(|node| *node != 0), text)
     }
 
     /// What comes from a node that is known, or is for it.
-    fn of_a_node(&mut self, id: u16, bytes: Option<&[u8]>) -> Option<Told> {
-        if let Some(told) = self.pdo(id, bytes) {
-            return Some(told);
+    fn of_a_node(&mut self, id: u16, bytes: Option<&[u8]>) -> Option<Described> {
+        if let Some(described) = self.pdo(id, bytes) {
+            return Some(described);
         }
         for node in &mut self.nodes {
             let name = node.name();
             let own = u16::from(node.id);
-            let told = |service, text| Some(Told::new(service, u8::try_from(own).ok(), text));
+            let described = |service, text| Some(Described::new(service, u8::try_from(own).ok(), text));
             if let Some((channel, side)) = node.sdo_at(id) {
                 let Some(bytes) = bytes else {
-                    return told(Service::Sdo, format!("{name}  SDO as a remote frame"));
+                    return described(Service::Sdo, format!("{name}  SDO as a remote frame"));
                 };
                 let arrow = match side {
                     SdoSide::Client => "SDO →",
                     SdoSide::Server => "SDO ←",
                 };
                 let content = sdo::frame(node, channel, side, bytes);
-                return told(Service::Sdo, format!("{name}  {arrow}  {content}"));
+                return described(Service::Sdo, format!("{name}  {arrow}  {content}"));
             }
             if node.cob_id(0x1014, 0) == Some(id) {
                 let text = match bytes {
                     Some(bytes) => format!("{name}  EMCY  {}", services::emergency(Some(node), bytes)),
                     None => format!("{name}  EMCY as a remote frame"),
                 };
-                return told(Service::Emergency, text);
+                return described(Service::Emergency, text);
             }
             if id == 0x700 + own {
                 let text = match bytes {
@@ -240,14 +240,14 @@ impl<'a> Decoder<'a> {
                     Some(more) => format!("{name}  heartbeat  {} where it has 1", count(more.len())),
                     None => format!("{name}  node guarding  asked for its state"),
                 };
-                return told(Service::Heartbeat, text);
+                return described(Service::Heartbeat, text);
             }
         }
         None
     }
 
     /// A PDO: of its sender, if that is known; and who else has it.
-    fn pdo(&self, id: u16, bytes: Option<&[u8]>) -> Option<Told> {
+    fn pdo(&self, id: u16, bytes: Option<&[u8]>) -> Option<Described> {
         let of_nodes = self.nodes.iter().flat_map(|node| node.pdos_at(id).map(move |pdo| (node, pdo)));
         let mut ends: Vec<_> = of_nodes.collect();
         ends.sort_by_key(|(_, pdo)| pdo.direction == Direction::Receive);
@@ -264,7 +264,7 @@ impl<'a> Decoder<'a> {
         for (node, pdo) in others {
             let _ = write!(text, "  [also {}]", label(node, pdo).replace("  ", " "));
         }
-        Some(Told::new(Service::Pdo, Some(node.id), text))
+        Some(Described::new(Service::Pdo, Some(node.id), text))
     }
 }
 

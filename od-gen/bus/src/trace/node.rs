@@ -153,28 +153,28 @@ impl<'a> Node<'a> {
             value => words(object, entry, value),
         };
         let raw = value.integer().and_then(|raw| u64::try_from(raw).ok());
-        let mut told = raw.map(|raw| self.machines(id, raw)).unwrap_or_default();
-        told.insert(0, text);
-        told.join(", ")
+        let mut described = raw.map(|raw| self.machines(id, raw)).unwrap_or_default();
+        described.insert(0, text);
+        described.join(", ")
     }
 
     /// The states or commands that state machines know by a value.
     fn machines(&self, id: EntryId, raw: u64) -> Vec<String> {
         let matches = |(mask, value): (u64, u64)| raw & mask == value;
         let of_device = |machine: &&StateMachine| machine.devices.includes(&self.device.key);
-        let mut told = Vec::new();
+        let mut described = Vec::new();
         for machine in self.system.machines.values().filter(of_device) {
             if machine.status == id {
                 let states = machine.states.iter().filter(|state| matches(state.pattern.mask_and_value()));
-                told.extend(states.map(|state| format!("state: {}", state.name)));
+                described.extend(states.map(|state| format!("state: {}", state.name)));
             }
             if machine.command == id {
                 let commands = machine.commands.iter();
                 let commands = commands.filter(|command| matches(command.pattern.mask_and_value()));
-                told.extend(commands.map(|command| format!("command: {}", command.name)));
+                described.extend(commands.map(|command| format!("command: {}", command.name)));
             }
         }
-        told
+        described
     }
 }
 
@@ -224,23 +224,23 @@ objects:
 ";
 
     /// What a decoder of the lamp, as node 5, reports of some frames.
-    fn told(frames: &[(u16, &[u8])]) -> Vec<String> {
+    fn described(frames: &[(u16, &[u8])]) -> Vec<String> {
         let mut sources = SourceMap::new();
         let root = sources.add("lamp.od.yaml", LAMP);
         let compiled = compile(&mut sources, root, &mut NoFiles);
         let system = compiled.system.unwrap_or_else(|| panic!("{:?}", compiled.diagnostics));
         let mut decoder = Decoder::new(vec![Node::new(5, &system, &system.devices[0])]);
-        let told = frames.iter().map(|(id, bytes)| {
+        let described = frames.iter().map(|(id, bytes)| {
             let frame = Frame::data(CanId::new(*id).unwrap(), bytes).unwrap();
             decoder.frame(&frame).rsplit("  ").next().unwrap().to_owned()
         });
-        told.collect()
+        described.collect()
     }
 
     #[test]
     fn zeros_pad_a_text_and_belong_to_octets() {
         assert_eq!(
-            told(&[
+            described(&[
                 (0x585, &[0x43, 0x00, 0x20, 0, 1, 2, 0, 0]),
                 (0x585, &[0x43, 0x01, 0x20, 0, b'O', b'K', 0, 0]),
                 (0x585, &[0x43, 0x02, 0x20, 0, b'A', 0, 0, 0]),
@@ -252,7 +252,7 @@ objects:
     #[test]
     fn commands_of_1010h_and_1011h_are_reported_as_such() {
         assert_eq!(
-            told(&[
+            described(&[
                 (0x605, &[0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e']),
                 (0x605, &[0x23, 0x11, 0x10, 1, b'l', b'o', b'a', b'd']),
                 (0x605, &[0x23, 0x11, 0x10, 1, 1, 0, 0, 0]),

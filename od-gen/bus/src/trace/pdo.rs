@@ -7,7 +7,7 @@ use super::node::{Node, count};
 /// What a PDO says, entry by entry.
 pub(super) fn fields(node: &Node<'_>, pdo: &Pdo, bytes: &[u8]) -> String {
     let mapping = node.mapping(pdo);
-    let (mut first, mut told) = (0, Vec::new());
+    let (mut first, mut described) = (0, Vec::new());
     for Mapped { target, bits } in &mapping {
         let end = first + usize::from(*bits);
         match (target, bits_of(bytes, first, usize::from(*bits))) {
@@ -18,21 +18,23 @@ pub(super) fn fields(node: &Node<'_>, pdo: &Pdo, bytes: &[u8]) -> String {
                     Some(width) if width != *bits => format!(" ({bits} of its {width} bits are mapped)"),
                     Some(_) | None => String::new(),
                 };
-                told.push(format!("{} = {}{note}", node.entry(*id), node.value(*id, &value)));
+                described.push(format!("{} = {}{note}", node.entry(*id), node.value(*id, &value)));
             }
-            (PdoTarget::Entry(id), None) => told.push(format!("{} is missing", node.entry(*id))),
-            (PdoTarget::Dummy(data_type), None) => told.push(format!("a {} is missing", data_type.name())),
+            (PdoTarget::Entry(id), None) => described.push(format!("{} is missing", node.entry(*id))),
+            (PdoTarget::Dummy(data_type), None) => {
+                described.push(format!("a {} is missing", data_type.name()));
+            }
         }
         first = end;
     }
     let needed = first.div_ceil(8);
     if mapping.is_empty() {
-        told.push("nothing is mapped".to_owned());
+        described.push("nothing is mapped".to_owned());
     }
     if bytes.len() > needed {
-        told.push(format!("{} more than are mapped", count(bytes.len() - needed)));
+        described.push(format!("{} more than are mapped", count(bytes.len() - needed)));
     }
-    told.join("; ")
+    described.join("; ")
 }
 
 /// Bits of a value on the bus; a BOOLEAN is one.

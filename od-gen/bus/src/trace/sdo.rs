@@ -36,12 +36,12 @@ fn abort(node: &Node<'_>, transfer: &mut Transfer, bytes: [u8; 8]) -> String {
 
 /// The bytes of an expedited transfer; where their number is not stated, as many as the type of the entry has.
 fn expedited<'b>(node: &Node<'_>, bytes: &'b [u8; 8]) -> &'b [u8] {
-    let told = 4 - usize::from(bytes[0] >> 2 & 3);
+    let described = 4 - usize::from(bytes[0] >> 2 & 3);
     let of_type = || {
         let bits = node.device.entry(id_of(*bytes))?.data_type.bits()?;
         Some(usize::from(bits.div_ceil(8)).min(4))
     };
-    let count = if bytes[0] & 1 == 1 { told } else { of_type().unwrap_or(4) };
+    let count = if bytes[0] & 1 == 1 { described } else { of_type().unwrap_or(4) };
     &bytes[4..4 + count]
 }
 

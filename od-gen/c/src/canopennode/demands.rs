@@ -50,7 +50,7 @@ impl Findings<'_, '_> {
         self.device.objects.contains_key(&Index(index))
     }
 
-    fn tell(&mut self, code: &'static Code, span: Span, message: String, help: impl Into<String>) {
+    fn report(&mut self, code: &'static Code, span: Span, message: String, help: impl Into<String>) {
         self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
     }
 
@@ -65,7 +65,7 @@ impl Findings<'_, '_> {
                     self.device.key,
                     Index(index)
                 );
-                self.tell(
+                self.report(
                     codes::STACK_REFUSES,
                     self.device.span,
                     message,
@@ -107,7 +107,7 @@ impl Findings<'_, '_> {
                     self.device.key,
                     Index(index)
                 );
-                self.tell(
+                self.report(
                     codes::STACK_DIFFERS,
                     self.device.span,
                     message,
@@ -122,7 +122,7 @@ impl Findings<'_, '_> {
                 "`{}` has SRDOs ({}), and no entry gets the attributes by which CANopenNode maps it into one",
                 self.device.key, object.index
             );
-            self.tell(
+            self.report(
                 codes::STACK_DIFFERS,
                 object.span,
                 message,
@@ -140,12 +140,12 @@ impl Findings<'_, '_> {
                 self.device.key
             );
             let help = "add 1016h, or compile the stack with `CO_CONFIG_HB_CONS` set to 0";
-            self.tell(codes::STACK_DIFFERS, self.device.span, message, help);
+            self.report(codes::STACK_DIFFERS, self.device.span, message, help);
             return;
         };
         match object.elements() {
             Some(1..=MOST_CONSUMERS) => {}
-            Some(_) | None => self.tell(
+            Some(_) | None => self.report(
                 codes::STACK_REFUSES,
                 object.object.span,
                 "CANopenNode takes 1016h (consumer heartbeat time) as an ARRAY of 1 to 127 elements without a gap".to_owned(),
@@ -177,7 +177,7 @@ impl Findings<'_, '_> {
                         Index(missing)
                     );
                     let span = span(there, self.device);
-                    self.tell(
+                    self.report(
                         codes::STACK_REFUSES,
                         span,
                         message,
@@ -195,7 +195,7 @@ impl Findings<'_, '_> {
                 lowest + 1
             );
             let span = span(first + lowest, self.device);
-            self.tell(
+            self.report(
                 codes::STACK_REFUSES,
                 span,
                 message,
@@ -211,7 +211,7 @@ impl Findings<'_, '_> {
             );
             let help = "do nothing, unless the application calls PDOs by number: the stack's numbers are places in the list";
             let span = span(first + highest, self.device);
-            self.tell(codes::STACK_DIFFERS, span, message, help);
+            self.report(codes::STACK_DIFFERS, span, message, help);
         }
         for place in numbers {
             let Some(object) = self.device.objects.get(&Index(first + place)) else { continue };
@@ -227,7 +227,7 @@ impl Findings<'_, '_> {
                     "{} has no sub-index {sub}, and CANopenNode does not start without it",
                     object.index
                 );
-                self.tell(codes::STACK_DIFFERS, object.span, message, format!("add sub-index {sub}"));
+                self.report(codes::STACK_DIFFERS, object.span, message, format!("add sub-index {sub}"));
             }
         }
     }
@@ -241,7 +241,7 @@ impl Findings<'_, '_> {
             if pdo.map.len() > MOST_MAPPED {
                 let message =
                     format!("{name} maps {} entries, and CANopenNode at most {MOST_MAPPED}", pdo.map.len());
-                self.tell(
+                self.report(
                     codes::STACK_DIFFERS,
                     span,
                     message,
@@ -257,7 +257,7 @@ impl Findings<'_, '_> {
                 let message =
                     format!("{name} maps {what} with {} bits, and CANopenNode whole bytes", mapped.bits);
                 let help = "compile the stack with `CO_CONFIG_PDO_BITWISE_MAPPING`";
-                self.tell(codes::STACK_DIFFERS, span, message, help);
+                self.report(codes::STACK_DIFFERS, span, message, help);
             }
         }
     }
@@ -274,7 +274,7 @@ impl Findings<'_, '_> {
                 );
                 let help =
                     "do nothing if all bytes are always used; else leave it to the application, as a DOMAIN";
-                self.tell(codes::STACK_DIFFERS, entry.span, message, help);
+                self.report(codes::STACK_DIFFERS, entry.span, message, help);
             }
         }
     }
@@ -286,7 +286,7 @@ impl Findings<'_, '_> {
                 "{id} ({}) is the same for every node, and CANopenNode adds the node-ID to it, because it is a base of the pre-defined connection set",
                 entry.name
             );
-            self.tell(
+            self.report(
                 codes::STACK_DIFFERS,
                 entry.span,
                 message,
@@ -301,7 +301,7 @@ impl Findings<'_, '_> {
                 left.join(", ")
             );
             let help = "call `OD_addNodeId` of OD_extension.h with the node-ID, before the stack is started: it adds it there";
-            self.tell(codes::STACK_DIFFERS, self.device.span, message, help);
+            self.report(codes::STACK_DIFFERS, self.device.span, message, help);
         }
     }
 }

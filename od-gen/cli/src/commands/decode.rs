@@ -86,8 +86,8 @@ fn trace(name: &str, mut from: impl BufRead, decoder: &mut Decoder<'_>, report: 
             Ok(Line::Seen(Seen { head, what })) => {
                 let head = head.join(" ");
                 let between = if head.is_empty() { "" } else { "  " };
-                let told = format!("{head}{between}{}\n", decoder.tell(&what));
-                let written = out.write_all(printable(&told, false).as_bytes());
+                let described = format!("{head}{between}{}\n", decoder.describe(&what));
+                let written = out.write_all(printable(&described, false).as_bytes());
                 written.and_then(|()| out.flush()).map_err(|error| not_printed(&error))?;
             }
             Err(fault) => {

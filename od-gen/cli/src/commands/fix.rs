@@ -62,7 +62,7 @@ pub(crate) fn run(args: &FixArgs, report: &Report) -> u8 {
         if (args.diff || !args.write) && print(&file.diff()) != SUCCESS {
             return ERRORS;
         }
-        file.tell(args.write, report);
+        file.report(args.write, report);
     }
     SUCCESS
 }
@@ -131,7 +131,7 @@ impl File {
     }
 
     /// Reports what was fixed, and what the user has to decide.
-    fn tell(&self, written: bool, report: &Report) {
+    fn report(&self, written: bool, report: &Report) {
         let mut left = self.fixed.left.clone();
         left.soften();
         let decisions = left.clone().without_notes();

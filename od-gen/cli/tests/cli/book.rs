@@ -103,11 +103,11 @@ fn the_trace_is_reported_as_shown() {
 ";
     scratch.file("bus.log", lines);
     let arguments = "decode valve.od.yaml --node 5 --trace bus.log";
-    let told = stdout(&odgen(&scratch.0, &arguments.split(' ').collect::<Vec<_>>()));
+    let reported = stdout(&odgen(&scratch.0, &arguments.split(' ').collect::<Vec<_>>()));
     shows(
         "guides/virtual-nodes.md",
         "decode",
-        [format!("$ odgen {arguments}").as_str()].into_iter().chain(told.lines()),
+        [format!("$ odgen {arguments}").as_str()].into_iter().chain(reported.lines()),
     );
 }
 
@@ -118,15 +118,15 @@ fn the_bus_is_watched_as_shown() {
     let system = od_spec::compile(&mut sources, root, &mut od_spec::NoFiles).system.unwrap();
     let decoder = Decoder::new(vec![Node::new(5, &system, &system.devices[0])]);
     let mut monitor = Monitor::new(decoder, Shows::default(), 0);
-    let mut told = vec!["$ odgen node monitor valve.od.yaml --node 5 --ask".to_owned()];
+    let mut reported = vec!["$ odgen node monitor valve.od.yaml --node 5 --ask".to_owned()];
     for (at, line) in
         [(412, "t70517F"), (1412, "t70517F"), (2020, "t00020105"), (2412, "t705105"), (2600, "t20523C00")]
     {
         let (frame, _) = od_bus::slcan::frame(line).unwrap();
-        told.extend(monitor.take(&What::Frame(frame), at * 1000));
+        reported.extend(monitor.take(&What::Frame(frame), at * 1000));
     }
-    told.extend(monitor.poll(monitor.next_deadline().unwrap()));
-    shows("guides/operator.md", "monitor", told.iter().map(String::as_str));
+    reported.extend(monitor.poll(monitor.next_deadline().unwrap()));
+    shows("guides/operator.md", "monitor", reported.iter().map(String::as_str));
 }
 
 #[test]

@@ -61,9 +61,9 @@ fn a_finding_names_the_readers_in_every_format() {
     let access = json.lines().find(|line| line.contains("EDS406")).unwrap();
     assert!(access.contains(r#","minded-by":["dcfchk","canopen-host","CANopenEditor"]"#), "{access}");
     let sarif = stdout(&odgen(&scratch.0, &["check", "level.eds", "--format", "sarif"]));
-    let told: String = sarif.split_whitespace().collect();
+    let reported: String = sarif.split_whitespace().collect();
     assert!(
-        told.contains(r#""properties":{"mindedBy":["dcfchk","canopen-host","CANopenEditor"]}"#),
+        reported.contains(r#""properties":{"mindedBy":["dcfchk","canopen-host","CANopenEditor"]}"#),
         "{sarif}"
     );
 }

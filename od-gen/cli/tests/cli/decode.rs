@@ -18,7 +18,7 @@ fn of_pitch(name: &str, trace: &str) -> (String, String, i32) {
 
 #[test]
 fn every_service_is_reported() {
-    let (told, said, code) = of_pitch(
+    let (reported, said, code) = of_pitch(
         "decode-services",
         "\
 (1700000000.000000) can0 000#8005
@@ -41,12 +41,12 @@ can0 7E4#4F00000000000000
 ",
     );
     assert_eq!((said.as_str(), code), ("", 0));
-    assert_snapshot!("decode-services", told);
+    assert_snapshot!("decode-services", reported);
 }
 
 #[test]
 fn foreign_frames_are_reported_to_be_unknown() {
-    let (told, said, code) = of_pitch(
+    let (reported, said, code) = of_pitch(
         "decode-foreign",
         "\
 # Node 9 and others have no dictionary.
@@ -62,12 +62,12 @@ can0 123#R2
 ",
     );
     assert_eq!((said.as_str(), code), ("", 0));
-    assert_snapshot!("decode-foreign", told);
+    assert_snapshot!("decode-foreign", reported);
 }
 
 #[test]
 fn sdo_transfers_are_reported_with_their_values() {
-    let (told, said, code) = of_pitch(
+    let (reported, said, code) = of_pitch(
         "decode-sdo",
         "\
 can0 605#4041600000000000
@@ -96,13 +96,13 @@ can0 605#40
 ",
     );
     assert_eq!((said.as_str(), code), ("", 0));
-    assert_snapshot!("decode-sdo", told);
+    assert_snapshot!("decode-sdo", reported);
 }
 
 /// A client gives the first TPDO another content; a reset takes it back.
 #[test]
 fn mappings_follow_what_clients_write() {
-    let (told, said, code) = of_pitch(
+    let (reported, said, code) = of_pitch(
         "decode-mapping",
         "\
 can0 185#3702
@@ -130,14 +130,14 @@ can0 185#3702
 ",
     );
     assert_eq!((said.as_str(), code), ("", 0));
-    assert_snapshot!("decode-mapping", told);
+    assert_snapshot!("decode-mapping", reported);
 }
 
 #[test]
 fn lines_that_cannot_be_read_are_reported_with_their_place() {
-    let (told, said, code) = of_pitch("decode-bad", "can0 080#\ncan0 18x#\n\nt1819\ncan0 705#05\n");
+    let (reported, said, code) = of_pitch("decode-bad", "can0 080#\ncan0 18x#\n\nt1819\ncan0 705#05\n");
     assert_eq!(code, 1);
-    assert_snapshot!("decode-bad", format!("{told}---\n{said}"));
+    assert_snapshot!("decode-bad", format!("{reported}---\n{said}"));
 }
 
 #[test]
@@ -193,7 +193,7 @@ fn lines_of_an_adapter_are_reported_as_they_come() {
     let mut input = child.stdin.take().unwrap();
     let mut output = std::io::BufReader::new(child.stdout.take().unwrap());
     // There is no line feed, and the pipe stays open.
-    for (line, told) in [
+    for (line, reported) in [
         ("t705100\r", "705h  lamp (node 5)  boot-up\n"),
         ("t705105\r\n", "705h  lamp (node 5)  heartbeat  operational\n"),
         ("\n\rt7051", ""),
@@ -201,10 +201,10 @@ fn lines_of_an_adapter_are_reported_as_they_come() {
     ] {
         std::io::Write::write_all(&mut input, line.as_bytes()).unwrap();
         let mut said = String::new();
-        if !told.is_empty() {
+        if !reported.is_empty() {
             std::io::BufRead::read_line(&mut output, &mut said).unwrap();
         }
-        assert_eq!(said, told);
+        assert_eq!(said, reported);
     }
     // A line that does not end in time is wrong, and not kept.
     let endless = [b"t705100 ".as_slice(), &vec![b'x'; 1 << 20], b"\rwhat\r"].concat();

@@ -225,7 +225,7 @@ fn a_node_that_starts_again_in_the_middle_is_reported() {
     };
     let backup = ["--out", "none.yaml"];
     let fallen = &[(2, OPERATIONAL), (5, PRE_OPERATIONAL)];
-    let told = [
+    let reported = [
         said("1", &[(5, BOOT_UP)], "backup", &backup),
         said("2", fallen, "backup", &backup),
         said("3", fallen, "compare", &["kept.yaml"]),
@@ -238,7 +238,7 @@ fn a_node_that_starts_again_in_the_middle_is_reported() {
         // It is another node.
         said("8", &[(2, "t706105"), (5, "t70617F")], "backup", &backup),
     ];
-    assert_snapshot!("dirt-start", told.concat());
+    assert_snapshot!("dirt-start", reported.concat());
     let bus = Bus::new("dirt-start-store", same(), brings(&[(2, BOOT_UP)]));
     let stored = bus.run(&["store", "--node", "5", "--yes"]);
     assert!(stored.contains("started again in the middle") && stored.ends_with("-> 1\n"), "{stored}");

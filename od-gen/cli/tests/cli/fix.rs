@@ -94,9 +94,13 @@ fn files_of_others_are_named_and_left_alone() {
         for command in [&["fix", "--write"][..], &["check"], &["build"], &["import"], &["dcf", "--node", "5"]]
         {
             let output = odgen(&scratch.0, &[command, &[file]].concat());
-            let told = stderr(&output);
-            assert_eq!((code(&output), told.matches("error[").count()), (1, 1), "{command:?}: {told}");
-            assert!(told.contains(said), "{command:?}: {told}");
+            let reported = stderr(&output);
+            assert_eq!(
+                (code(&output), reported.matches("error[").count()),
+                (1, 1),
+                "{command:?}: {reported}"
+            );
+            assert!(reported.contains(said), "{command:?}: {reported}");
         }
     }
     assert_eq!(files(&scratch.0), ["gbk.eds", "odva.eds", "two.eds"], "nothing is written");

@@ -19,7 +19,7 @@ fn lamp() -> String {
 struct Watched {
     served: Served,
     monitor: Child,
-    told: BufReader<std::process::ChildStdout>,
+    reported: BufReader<std::process::ChildStdout>,
     _scratch: Scratch,
 }
 
@@ -36,8 +36,8 @@ impl Watched {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        let told = BufReader::new(monitor.stdout.take().unwrap());
-        Self { served, monitor, told, _scratch: scratch }
+        let reported = BufReader::new(monitor.stdout.take().unwrap());
+        Self { served, monitor, reported, _scratch: scratch }
     }
 
     fn say(&mut self, commands: &str) {
@@ -47,9 +47,12 @@ impl Watched {
     /// The next line, without its time.
     fn line(&mut self) -> String {
         let mut line = String::new();
-        self.told.read_line(&mut line).unwrap();
+        self.reported.read_line(&mut line).unwrap();
         let line = line.trim_end();
-        line.split_once(")  ").filter(|_| line.starts_with('(')).map_or(line, |(_, told)| told).to_owned()
+        line.split_once(")  ")
+            .filter(|_| line.starts_with('('))
+            .map_or(line, |(_, reported)| reported)
+            .to_owned()
     }
 
     fn lines(&mut self, expected: &[&str]) {

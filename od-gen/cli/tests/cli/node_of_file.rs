@@ -59,10 +59,10 @@ fn values_hold_wherever_the_node_id_is_from() {
         ] {
             assert!(dbc.contains(message), "{name}: {dbc}");
         }
-        let told = run(&["decode", "pump.dcf", "--trace", "trace.log"]);
-        let told: Vec<&str> = told.lines().collect();
-        assert!(told[0].ends_with("2002h Torque = 513"), "{name}: {told:?}");
-        assert!(told[1].ends_with("2001h Status = 513"), "{name}: {told:?}");
+        let reported = run(&["decode", "pump.dcf", "--trace", "trace.log"]);
+        let reported: Vec<&str> = reported.lines().collect();
+        assert!(reported[0].ends_with("2002h Torque = 513"), "{name}: {reported:?}");
+        assert!(reported[1].ends_with("2001h Status = 513"), "{name}: {reported:?}");
         run(&["st", "pump.dcf", "--out", "."]);
         let constants = text(&scratch, "pump-constants.st");
         assert!(constants.contains("PUMP_SET_SPEED_DEFAULT : UINT := 1500;"), "{name}: {constants}");
@@ -120,8 +120,8 @@ fn what_follows_the_node_id_moves_with_it() {
     for message in ["BO_ 393 pump_9_TPDO1", "BO_ 649 pump_9_TPDO2", "BO_ 521 pump_9_RPDO1"] {
         assert!(dbc.contains(message), "{dbc}");
     }
-    let told = run(&["decode", "pump.dcf", "--trace", "trace.log"]);
-    assert!(told.contains("2002h Torque = 513"), "{told}");
+    let reported = run(&["decode", "pump.dcf", "--trace", "trace.log"]);
+    assert!(reported.contains("2002h Torque = 513"), "{reported}");
     run(&["st", "pump.dcf", "--out", "."]);
     let constants = text(&scratch, "pump-constants.st");
     assert!(constants.contains("PUMP_TPDO1_CAN_ID : UDINT := 16#189;"), "{constants}");

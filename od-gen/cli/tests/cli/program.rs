@@ -60,7 +60,7 @@ impl Bus {
     fn program(&self, arguments: &[&str]) -> String {
         let command = ["program", "pump.od.yaml", "--node", "5"];
         let output = self.output(&[&command, arguments].concat(), &self.relay.address);
-        told(&["program", &arguments.join(" ")].join(" "), &output)
+        reported(&["program", &arguments.join(" ")].join(" "), &output)
     }
 
     /// The same where something is missing, which need not be waited for.
@@ -71,7 +71,7 @@ impl Bus {
     /// Another command of `odgen node` with node 5, past the relay.
     fn node(&self, command: &str, arguments: &[&str]) -> String {
         let whole = [&[command, "pump.od.yaml", "--node", "5"], arguments].concat();
-        told(&format!("{command} {}", arguments.join(" ")), &self.output(&whole, self.served.address()))
+        reported(&format!("{command} {}", arguments.join(" ")), &self.output(&whole, self.served.address()))
     }
 
     /// What the node says of its programs.
@@ -80,7 +80,7 @@ impl Bus {
     }
 }
 
-fn told(command: &str, output: &Output) -> String {
+fn reported(command: &str, output: &Output) -> String {
     format!("$ {command}\n{}{}-> {}\n", stdout(output), stderr(output), code(output))
 }
 
@@ -141,7 +141,7 @@ fn commands_in_a_wrong_order_are_refused() {
         write("1F51.1=start"),
         write("1F51.1=reset program"),
         bus.now(),
-        told("nmt start", &bus.output(&["nmt", "start", "--node", "5"], bus.served.address())),
+        reported("nmt start", &bus.output(&["nmt", "start", "--node", "5"], bus.served.address())),
         write("1F51.2=stop"),
     ];
     assert_snapshot!("program-order", said.concat());
@@ -269,6 +269,6 @@ fn an_interrupt_ends_the_transfer() {
     *command.lock().unwrap() = Some(child.id());
     let output = child.wait_with_output().unwrap();
     assert_eq!(code(&output), 130, "{}", stderr(&output));
-    let said = [told("program long.bin --yes", &output), bus.now(), bus.program(&["pump.bin", "--yes"])];
+    let said = [reported("program long.bin --yes", &output), bus.now(), bus.program(&["pump.bin", "--yes"])];
     assert_snapshot!("program-interrupt", said.concat());
 }

@@ -60,10 +60,10 @@ fn clients_talk_to_nodes_by_slcan() {
     served.served.child.kill().unwrap();
     let mut log = String::new();
     served.served.child.stderr.take().unwrap().read_to_string(&mut log).unwrap();
-    let told: Vec<&str> =
-        log.lines().filter_map(|line| line.split_once(")  ")).map(|(_, told)| told).collect();
+    let reported: Vec<&str> =
+        log.lines().filter_map(|line| line.split_once(")  ")).map(|(_, reported)| reported).collect();
     assert_eq!(
-        told,
+        reported,
         [
             "705h  lamp (node 5)  boot-up",
             "706h  lamp (node 6)  boot-up",
@@ -226,7 +226,7 @@ fn the_nodes_of_a_machine_are_served_as_the_plant_sets_them() {
 #[test]
 fn a_machine_is_one_of_a_plant() {
     let scratch = presses("serve-machine");
-    let mut told = String::new();
+    let mut reported = String::new();
     for arguments in [
         &["plant.yaml"][..],
         &["plant.yaml", "--machine", "66"],
@@ -240,12 +240,12 @@ fn a_machine_is_one_of_a_plant() {
             let output = odgen(&scratch.0, &[&[command][..], arguments, &["--format", "short"]].concat());
             let line = format!("{} {}", code(&output), stderr(&output));
             if command == "serve" {
-                told += &line;
+                reported += &line;
             }
-            assert!(told.ends_with(&line), "{command} {arguments:?}: {line}");
+            assert!(reported.ends_with(&line), "{command} {arguments:?}: {line}");
         }
     }
-    insta::assert_snapshot!(told);
+    insta::assert_snapshot!(reported);
 }
 
 #[test]
@@ -254,8 +254,8 @@ fn a_trace_of_a_machine_is_decoded() {
     scratch.file("bus.log", "(1.0) can0 616#4000300000000000\n(1.1) can0 596#4B00300050140000\n");
     let output = odgen(&scratch.0, &["decode", "plant.yaml", "--machine", "6", "--trace", "bus.log"]);
     assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
-    let told = crate::stdout(&output);
-    assert!(told.contains("596h  drive (node 22)  SDO ←  3000h lowest voltage = 520.0 V"), "{told}");
+    let reported = crate::stdout(&output);
+    assert!(reported.contains("596h  drive (node 22)  SDO ←  3000h lowest voltage = 520.0 V"), "{reported}");
 }
 
 /// At which time a value is what is tested in the source's folder, with a clock of the test.

@@ -95,8 +95,11 @@ fn what_is_switched_off_is_left_out_or_taken_by_every_command() {
     let scratch = Scratch::new("xdd-disabled");
     scratch.file("kiln.xdd", KILN);
     let run = |arguments: &[&str]| odgen(&scratch.0, arguments);
-    let told = stderr(&run(&["check", "kiln.xdd"]));
-    assert!(told.contains("warning[XDD208]: 1 object is switched off and left out: 2001h\n"), "{told}");
+    let reported = stderr(&run(&["check", "kiln.xdd"]));
+    assert!(
+        reported.contains("warning[XDD208]: 1 object is switched off and left out: 2001h\n"),
+        "{reported}"
+    );
     for arguments in [&["dump", "kiln.xdd"][..], &["dcf", "kiln.xdd", "--node", "3"]] {
         let made = |more: &[&str]| {
             let printed = stdout(&run(&[arguments, more].concat()));
@@ -106,11 +109,11 @@ fn what_is_switched_off_is_left_out_or_taken_by_every_command() {
         assert!(without.contains("curve") && !without.contains("spare"), "{arguments:?}: {without}");
         assert!(with.contains("spare"), "{arguments:?}: {with}");
     }
-    let told = stderr(&run(&["check", "kiln.xdd", "--disabled"]));
-    assert!(!told.contains("XDD208") && told.contains("3 objects"), "{told}");
+    let reported = stderr(&run(&["check", "kiln.xdd", "--disabled"]));
+    assert!(!reported.contains("XDD208") && reported.contains("3 objects"), "{reported}");
     // A file is read twice in one way.
-    let told = stdout(&run(&["diff", "kiln.xdd", "kiln.xdd", "--disabled", "--format", "short"]));
-    assert_eq!(told, "");
+    let reported = stdout(&run(&["diff", "kiln.xdd", "kiln.xdd", "--disabled", "--format", "short"]));
+    assert_eq!(reported, "");
 }
 
 #[test]

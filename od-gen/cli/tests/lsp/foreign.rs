@@ -98,6 +98,16 @@ fn a_file_that_the_editor_has_read_in_another_encoding_is_reported() {
         client.close(name);
         client.diagnostics_of_file(name);
     }
+    // What the editor has saved is what the file has.
+    client.open("a.eds", &lossy);
+    assert!(is_reported(&client.diagnostics("a.eds", 1)));
+    let saved = lossy.replace('\u{FFFD}', "é");
+    client.replace("a.eds", 2, &saved);
+    assert!(is_reported(&client.diagnostics("a.eds", 2)));
+    std::fs::write(client.directory.0.join("a.eds"), &saved).unwrap();
+    client.notify("textDocument/didSave", &json!({"textDocument": {"uri": client.uri("a.eds")}}));
+    client.replace("a.eds", 3, &saved);
+    assert!(!is_reported(&client.diagnostics("a.eds", 3)));
 }
 
 #[test]

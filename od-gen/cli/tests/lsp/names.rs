@@ -149,7 +149,7 @@ fn hover_tells_what_a_section_of_an_eds_says() {
 #[test]
 fn hover_tells_facts_meanings_and_raw_values() {
     let mut session = Session::new("hover");
-    for (from, to, range, told) in [
+    for (from, to, range, reported) in [
         ("limits.lowest <", "limits.low‸est <", "lowest", "`2002h.1` **limits.lowest**"),
         ("limits.lowest <", "limits.low‸est <", "lowest", "- default: 10.0 °C (100)"),
         ("limits.lowest <", "limits.low‸est <", "lowest", "- require: in order, `0x2002.1 < 0x2002.2`"),
@@ -174,7 +174,7 @@ fn hover_tells_facts_meanings_and_raw_values() {
     ] {
         let (said, covers) = session.hover(from, to);
         assert_eq!(covers, range, "{to}: {said}");
-        assert!(said.contains(told), "{to}: {said}");
+        assert!(said.contains(reported), "{to}: {said}");
     }
     // In a comment there is nothing to show.
     assert_eq!(session.hover("od-spec: 1", "od-spec: 1 # a na‸me").0, "");

@@ -157,12 +157,12 @@ fn changed(find: &str, replace: &str) -> Vec<String> {
     assert!(COUPLER.contains(find));
     let (old, new) = (read(COUPLER), read(&COUPLER.replace(find, replace)));
     let found = compare(&ask(&old, &new, Scope::WhatAnEdsStates)).unwrap();
-    let told = |change: &od_diff::Change| {
+    let reported = |change: &od_diff::Change| {
         let [before, after] = [&change.before, &change.after].map(|value| value.as_deref().unwrap_or("-"));
         let (part, class) = (change.part.as_deref().unwrap_or_default(), change.class().word());
         format!("{:?} {part} {}: {before} -> {after} [{class}]", change.place, change.fact.word())
     };
-    found.changes().map(told).collect()
+    found.changes().map(reported).collect()
 }
 
 #[test]

@@ -80,13 +80,13 @@ fn two_messages_with_one_identifier_are_reported() {
     let (first, _) = written(&[(3, &one, "valve"), (4, &one, "valve")]);
     assert_eq!(first.left_out, [], "they take the same");
     let (second, text) = written(&[(3, &one, "valve"), (4, &other, "valve")]);
-    let told: Vec<String> = second.left_out.iter().map(ToString::to_string).collect();
-    assert_eq!(told, ["RPDO2 of valve (node 4): the identifier 1A2h is that of RPDO2 of valve (node 3)"]);
+    let reported: Vec<String> = second.left_out.iter().map(ToString::to_string).collect();
+    assert_eq!(reported, ["RPDO2 of valve (node 4): the identifier 1A2h is that of RPDO2 of valve (node 3)"]);
     assert!(text.contains("BO_ 418 valve_3_RPDO2: 2 Vector__XXX\r\n SG_ temperature : 0|16@1+ (0.1,-40) [0|0] \"\u{b0}C\" valve_3\r\n"), "{text}");
     let (third, _) = written(&[(3, &one, "sensor"), (4, &one, "sensor")]);
-    let told: Vec<String> = third.left_out.iter().map(ToString::to_string).collect();
+    let reported: Vec<String> = third.left_out.iter().map(ToString::to_string).collect();
     assert_eq!(
-        told,
+        reported,
         [
             "TPDO1 of sensor (node 4): the identifier 1A0h is that of TPDO1 of sensor (node 3)",
             "TPDO2 of sensor (node 4): the identifier 1A1h is that of TPDO2 of sensor (node 3)",

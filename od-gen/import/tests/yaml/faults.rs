@@ -53,10 +53,10 @@ const fn at(index: u16, sub: u8) -> Place {
 }
 
 /// What a repair is about: its place, the fact, what the model says.
-type Told<'a> = (Place, Option<Fact>, &'a str);
+type Reported<'a> = (Place, Option<Fact>, &'a str);
 
 /// A way to break the device, and what is changed for it.
-type Fault = (&'static str, fn(&mut System), &'static [Told<'static>]);
+type Fault = (&'static str, fn(&mut System), &'static [Reported<'static>]);
 
 const FAULTS: &[Fault] = &[
     (
@@ -264,7 +264,7 @@ fn names(system: &System) -> Vec<(&str, &str)> {
 }
 
 /// What is changed, and the rules that are allowed to be broken.
-fn told(written: &Specification) -> Vec<Told<'_>> {
+fn reported(written: &Specification) -> Vec<Reported<'_>> {
     let repairs = written.repairs.iter().map(|repair| (repair.place, repair.fact, repair.original.as_str()));
     repairs.chain(written.allowed.iter().map(|code| (Place::Device, None, *code))).collect()
 }
@@ -292,7 +292,7 @@ fn each_fault_is_allowed_or_costs_the_fact_that_is_wrong_and_nothing_else() {
         fault(&mut system);
         let specification = written(&system);
         let again = model(&specification.text);
-        assert_eq!(told(&specification), *expected, "{what}: {}", specification.text);
+        assert_eq!(reported(&specification), *expected, "{what}: {}", specification.text);
         if !expected.iter().any(|(_, fact, _)| *fact == Some(Fact::Name)) {
             assert_eq!(names(&again), names(&system), "{what}");
         }
@@ -312,7 +312,7 @@ fn all_faults_at_once_leave_a_specification() {
     }
     let specification = written(&system);
     let again = model(&specification.text);
-    assert!(told(&specification).len() > 20, "{:?}", told(&specification));
+    assert!(reported(&specification).len() > 20, "{:?}", reported(&specification));
     let indices =
         |system: &System| system.devices[0].objects.keys().map(ToString::to_string).collect::<Vec<_>>();
     assert_eq!(indices(&again), indices(&system));
@@ -342,6 +342,6 @@ fn what_the_device_fills_in_may_not_suit_the_entry() {
         (Place::Device, None, "OD0404"),
         (Place::Device, None, "OD0415"),
     ];
-    assert_eq!(told(&specification), expected);
+    assert_eq!(reported(&specification), expected);
     assert_eq!(again.devices[0].objects[&Index(0x1008)].entries[0].data_type, DataType::Integer8);
 }

@@ -136,14 +136,14 @@ proptest! {
         let specification = written(&system);
         let again = model(&specification.text);
         for (index, object) in &again.devices[0].objects {
-            let told = specification.repairs.iter().any(|repair| repair.fact == Some(Fact::Links));
+            let reported = specification.repairs.iter().any(|repair| repair.fact == Some(Fact::Links));
             let linked: Vec<Index> = object.linked().collect();
-            prop_assert!(told || system.devices[0].objects[index].linked().eq(linked), "links of {index}: {}", specification.text);
+            prop_assert!(reported || system.devices[0].objects[index].linked().eq(linked), "links of {index}: {}", specification.text);
         }
         let lost = system.devices[0].objects.keys().filter(|index| !again.devices[0].objects.contains_key(index));
         for index in lost {
-            let told = specification.repairs.iter().any(|repair| repair.fact.is_none() && repair.original.starts_with(&index.to_string()));
-            prop_assert!(told, "{index} is gone without a word: {}", specification.text);
+            let reported = specification.repairs.iter().any(|repair| repair.fact.is_none() && repair.original.starts_with(&index.to_string()));
+            prop_assert!(reported, "{index} is gone without a word: {}", specification.text);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use lsp_types::CompletionItemKind;
 use od_spec::SettingNames;
-use od_spec::keys::KeyKind;
+use od_spec::keys::{KeyKind, PLANT_MACHINE, SITE};
 use od_spec::model::{DataType, Entry, EntryId};
 use od_spec::names::{SettingOf, Step};
 use od_spec::yaml::Node;
@@ -90,7 +90,7 @@ pub(super) fn of_text(wanted: &Wanted<'_>) -> Vec<Offer> {
         Step::Data { .. } | Step::Item { .. } => None,
     });
     match key {
-        Some(("a site" | "a machine", "type")) => {
+        Some((of, "type")) if of == SITE.name || of == PLANT_MACHINE.name => {
             words(wanted.tree.get("types").map(Node::entries).unwrap_or_default(), CompletionItemKind::CLASS)
         }
         Some((_, "unlock")) => {

@@ -161,17 +161,17 @@ fn finding(view: &View<'_>, constraint: &Constraint, broken: &Broken) -> Diagnos
     };
     // A setting of a part of a ladder is checked against the whole of it: each value, once, wherever it is from.
     let of_ladder = set.map_or(&[][..], |_| named.as_slice());
-    let mut told: Vec<Span> = set.map(|set| set.place).into_iter().collect();
+    let mut reported: Vec<Span> = set.map(|set| set.place).into_iter().collect();
     for named in of_ladder {
-        let Some(value) = view.value(named.entry).filter(|_| !told.contains(&named.place)) else { continue };
-        told.push(named.place);
+        let Some(value) = view.value(named.entry).filter(|_| !reported.contains(&named.place)) else { continue };
+        reported.push(named.place);
         diagnostic = diagnostic.with(named.place, format!("{} is {value}", named.entry));
     }
     for (text, value) in [left, right] {
         let side = named.iter().find(|named| named.entry.to_string() == *text);
         let said = format!("{text} is {value}");
         diagnostic = match side {
-            Some(side) if told.contains(&side.place) => diagnostic,
+            Some(side) if reported.contains(&side.place) => diagnostic,
             Some(side) => diagnostic.with(side.place, said),
             None if set.is_some() || *text == value.to_string() => diagnostic,
             None => diagnostic.note(said),

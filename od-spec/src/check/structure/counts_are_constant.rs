@@ -35,15 +35,15 @@ fn check(subject: &Subject<'_>, findings: &mut Findings) {
     for object in subject.device.objects.values().filter(|object| object.is_structured()) {
         let Some(count) = object.entry(SubIndex(0)) else { continue };
         let id = format_args!("{}: sub-index 0", object.index);
-        let told = is_told(object);
-        let problem = if count.access.is_writable() && !told {
+        let reported = is_told(object);
+        let problem = if count.access.is_writable() && !reported {
             let what =
                 format!("{id} is `{}`, although it only holds the highest sub-index", count.access.word());
             Some((what, Fact::Access, format!("write {}", keys.set(Key::Access, "ro"))))
         } else if count.pdo != PdoMapping::None {
             let what = format!("{id} is mappable, although it only holds the highest sub-index");
             Some((what, Fact::Mapping, format!("write {}", keys.set(Key::Mapping, "0"))))
-        } else if count.default.is_none() && !told {
+        } else if count.default.is_none() && !reported {
             let what = format!("{id} does not say which the highest sub-index is");
             Some((what, Fact::Default, format!("write the highest sub-index as {}", keys.key(Key::Default))))
         } else {

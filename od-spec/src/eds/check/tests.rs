@@ -35,7 +35,7 @@ fn example(rule: &FormatRule) -> Example {
 }
 
 /// What is said, in a form that people can read.
-fn told(diagnostics: &Diagnostics) -> String {
+fn reported(diagnostics: &Diagnostics) -> String {
     let lines: Vec<String> =
         diagnostics.iter().map(|one| format!("\n  {}: {}", one.code, one.message)).collect();
     lines.concat()
@@ -48,11 +48,11 @@ fn the_example_of_a_rule_is_refused_by_it_and_accepted_when_fixed() {
         let (id, example) = (rule.code.id, example(rule));
         let before = said(RULES.iter().copied(), example, example.before);
         if codes(&before) != BTreeSet::from([id]) {
-            let _ = write!(wrong, "\n{id}, before:{}", told(&before));
+            let _ = write!(wrong, "\n{id}, before:{}", reported(&before));
         }
         let after = said(RULES.iter().copied(), example, example.after);
         if !after.is_empty() {
-            let _ = write!(wrong, "\n{id}, after:{}", told(&after));
+            let _ = write!(wrong, "\n{id}, after:{}", reported(&after));
         }
     }
     assert!(wrong.is_empty(), "{wrong}");
@@ -65,7 +65,7 @@ fn a_rule_that_is_switched_off_lets_its_example_pass() {
         let example = example(rule);
         let others = RULES.iter().copied().filter(|one| !std::ptr::eq(*one, rule));
         let found = said(others, example, example.before);
-        assert!(found.is_empty(), "{} is said by something else, too:{}", rule.code, told(&found));
+        assert!(found.is_empty(), "{} is said by something else, too:{}", rule.code, reported(&found));
     }
 }
 

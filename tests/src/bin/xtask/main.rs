@@ -153,9 +153,9 @@ fn run_all(parts: &[&'static Part], found: &BTreeSet<Tool>) -> Vec<Row> {
             // There is no listener only when the other thread has panicked.
             run_waiting(&mut |row| drop(done.send(row)));
         });
-        let mut rows: Vec<Row> = of(Turn::First).map(|part| tell(run(part, found, Output::Told))).collect();
-        run_waiting(&mut |row| rows.push(tell(row)));
-        rows.extend(to_tell.iter().map(tell));
+        let mut rows: Vec<Row> = of(Turn::First).map(|part| print(run(part, found, Output::Shown))).collect();
+        run_waiting(&mut |row| rows.push(print(row)));
+        rows.extend(to_tell.iter().map(print));
         rows
     })
 }
@@ -176,7 +176,7 @@ fn prepare(parts: &[&Part]) {
 }
 
 /// Prints what was kept of a part.
-fn tell((row, output): (Row, Output)) -> Row {
+fn print((row, output): (Row, Output)) -> Row {
     if let Output::Kept(text) = output {
         print!("{}", String::from_utf8_lossy(&text));
     }
@@ -191,10 +191,10 @@ fn run(part: &'static Part, found: &BTreeSet<Tool>, output: Output) -> (Row, Out
     let outcome = if matches!(readiness, Readiness::Lacks(_)) {
         Outcome::LeftOut(reason.unwrap_or_default())
     } else {
-        runner.tell(&format!("\n== {}", part.title));
+        runner.print(&format!("\n== {}", part.title));
         match (part.run)(&mut runner) {
             Err(failure) => {
-                runner.tell(&format!("error: {failure}"));
+                runner.print(&format!("error: {failure}"));
                 Outcome::Failed(failure.to_string())
             }
             Ok(()) => match reason.or(runner.gap) {

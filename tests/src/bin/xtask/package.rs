@@ -33,7 +33,7 @@ pub(crate) fn complete(runner: &mut Runner) -> Result<(), Failure> {
         return Err(lacks.join("\n").into());
     }
     let names: Vec<&str> = published.iter().map(name).collect::<Result<_, _>>()?;
-    runner.tell(&format!("{} packages are complete: {}", names.len(), names.join(", ")));
+    runner.print(&format!("{} packages are complete: {}", names.len(), names.join(", ")));
     Ok(())
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn unpacked(runner: &mut Runner) -> Result<(), Failure> {
             ["check", "--quiet", "--target-dir", "target", "--package", name(package)?, "--manifest-path"];
         runner.run(runner::cargo().args(package).arg(&manifest))?;
     }
-    runner.tell(&format!("{} packages compile", published.len()));
+    runner.print(&format!("{} packages compile", published.len()));
     install(runner, &published)
 }
 

@@ -97,7 +97,7 @@ impl PlainC<'_> {
         let linker = thumb_linker().ok_or("no linker for a Cortex-M")?;
         let said = emulate(&thumb, &linker, &directory, key, &exchange)?;
         self.runner
-            .tell(&format!("{key}: {} requests on the host, and on a Cortex-M {said}", exchange.len()));
+            .print(&format!("{key}: {} requests on the host, and on a Cortex-M {said}", exchange.len()));
         Ok(())
     }
 }

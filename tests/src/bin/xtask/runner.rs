@@ -24,7 +24,7 @@ pub(crate) struct Runner {
 pub(crate) enum Output {
     /// To the user, as it comes.
     #[default]
-    Told,
+    Shown,
     /// Here, for a part that runs at the same time as another one.
     Kept(Vec<u8>),
 }
@@ -119,7 +119,7 @@ impl Runner {
         let mut line = Vec::new();
         while from.read_until(b'\n', &mut line)? > 0 {
             match &mut self.output {
-                Output::Told => std::io::stdout().write_all(&line)?,
+                Output::Shown => std::io::stdout().write_all(&line)?,
                 Output::Kept(kept) => kept.extend(&line),
             }
             if let Some(counts) = Counts::of_line(&String::from_utf8_lossy(&line)) {
@@ -133,9 +133,9 @@ impl Runner {
     }
 
     /// Prints something about the programs, where their output goes.
-    pub(crate) fn tell(&mut self, text: &str) {
+    pub(crate) fn print(&mut self, text: &str) {
         match &mut self.output {
-            Output::Told => println!("{text}"),
+            Output::Shown => println!("{text}"),
             Output::Kept(kept) => kept.extend(format!("{text}\n").bytes()),
         }
     }

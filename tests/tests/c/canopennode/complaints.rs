@@ -2,7 +2,7 @@
 
 use od_tests::{compile_with_sources, root};
 
-use crate::canopennode::project::{Project, of_text, of_workspace, told};
+use crate::canopennode::project::{Project, of_text, of_workspace, reported};
 
 /// The lines of a file that begin so.
 fn lines<'t>(text: &'t str, begin: &str) -> Vec<&'t str> {
@@ -77,7 +77,7 @@ fn a_formula_is_a_number_however_it_is_written() {
             project.file("OD_rules.c").contains("{0x2000U, 0U, OD_NUMBER_UNSIGNED, 4U, (385ULL)}"),
             "{formula}"
         );
-        assert!(project.told.contains("does not add the node-ID to 2000h"), "{}", project.told);
+        assert!(project.reported.contains("does not add the node-ID to 2000h"), "{}", project.reported);
     }
 }
 
@@ -139,8 +139,8 @@ fn every_object_is_there_and_in_order() {
 #[test]
 fn what_the_stack_does_not_compile_without_is_refused() {
     let has = |text: &str, expected: &str| {
-        let (told, is_made) = told("refused.eds", text);
-        assert!(told.contains(expected) && !is_made, "{expected} in {told}");
+        let (reported, is_made) = reported("refused.eds", text);
+        assert!(reported.contains(expected) && !is_made, "{expected} in {reported}");
     };
     let whole = eds("");
     for (index, name) in
@@ -162,11 +162,11 @@ fn what_the_stack_does_not_compile_without_is_refused() {
 #[test]
 fn what_the_stack_has_to_be_set_up_for_is_reported() {
     let has = |text: &str, expected: &str| {
-        let (told, is_made) = told("reported.eds", text);
-        assert!(told.contains(expected) && is_made, "{expected} in {told}");
+        let (reported, is_made) = reported("reported.eds", text);
+        assert!(reported.contains(expected) && is_made, "{expected} in {reported}");
     };
     let whole = eds("");
-    assert_eq!(told("whole.eds", &whole).0, "");
+    assert_eq!(reported("whole.eds", &whole).0, "");
     for (index, expected) in [
         ("1014", "compile the stack with `CO_CONFIG_EM` without `CO_CONFIG_EM_PRODUCER`"),
         ("1016", "compile the stack with `CO_CONFIG_HB_CONS` set to 0"),
@@ -266,11 +266,11 @@ fn a_condition_that_is_too_wide_is_reported_where_it_is() {
     let text = specification(
         "  0x2000: {name: wide, type: unsigned64, access: rw}\n  0x2001: {name: kept, type: unsigned8, access: rw, writable-when: 0x2000 < 50}",
     );
-    let (told, is_made) = told("wide.od.yaml", &text);
-    assert!(told.contains("`0x2000 < 50` needs numbers of more than 64 bits") && !is_made, "{told}");
+    let (reported, is_made) = reported("wide.od.yaml", &text);
+    assert!(reported.contains("`0x2000 < 50` needs numbers of more than 64 bits") && !is_made, "{reported}");
     let (line, column) =
         text.lines().zip(1..).find_map(|(line, number)| Some((number, 1 + line.find("0x2000 <")?))).unwrap();
-    assert!(told.contains(&format!("wide.od.yaml:{line}:{column}")), "{told}");
+    assert!(reported.contains(&format!("wide.od.yaml:{line}:{column}")), "{reported}");
 }
 
 #[test]

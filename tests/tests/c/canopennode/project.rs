@@ -25,7 +25,7 @@ pub(crate) struct Project {
     /// The whole dump.
     pub(crate) dump: Json,
     /// What was reported when the files were made.
-    pub(crate) told: String,
+    pub(crate) reported: String,
 }
 
 /// Of some programs, those that are there.
@@ -50,7 +50,7 @@ pub(crate) fn of_text(name: &str, text: &str) -> Project {
 }
 
 /// What is reported about a text that is refused, or of which C is made: the messages, and whether there are files.
-pub(crate) fn told(name: &str, text: &str) -> (String, bool) {
+pub(crate) fn reported(name: &str, text: &str) -> (String, bool) {
     let (system, sources) = compiled(name, text);
     let mut diagnostics = Diagnostics::new();
     let set = c::artifacts(
@@ -82,8 +82,8 @@ fn of_system(system: &System, sources: &SourceMap, name: &str) -> Vec<Project> {
         &[Kind::CanopenNode],
         &mut diagnostics,
     );
-    let told = render(&diagnostics, sources, Format::Human, false);
-    assert!(!diagnostics.has_errors(), "{told}");
+    let reported = render(&diagnostics, sources, Format::Human, false);
+    assert!(!diagnostics.has_errors(), "{reported}");
     let dump: Json = serde_json::from_slice(&json::dump(system, &[])).unwrap();
     let number = PROJECTS.fetch_add(1, Ordering::Relaxed);
     let folder = root().join(format!("target/canopennode/{number}-{name}"));
@@ -105,7 +105,12 @@ fn of_system(system: &System, sources: &SourceMap, name: &str) -> Vec<Project> {
             path.rsplit('/').next().is_some_and(|folder| folder.trim_start_matches("device_") == key)
         };
         let path = folders.iter().find(is_of_device).unwrap();
-        Project { folder: folder.join(path), device: device.clone(), dump: dump.clone(), told: told.clone() }
+        Project {
+            folder: folder.join(path),
+            device: device.clone(),
+            dump: dump.clone(),
+            reported: reported.clone(),
+        }
     };
     devices.iter().map(of_device).collect()
 }

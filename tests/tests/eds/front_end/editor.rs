@@ -132,6 +132,6 @@ fn a_group_against_what_stores_its_entries_is_reported() {
     assert_eq!(entry.stored, Storage::Application);
     let text = import(&read, &sources, root).unwrap().unwrap().text;
     assert!(text.contains("stored: application") && !text.contains("canopennode:"), "{text}");
-    let told = "# - the group PERSIST_MFR of 2000h, whose entries are stored otherwise\n";
-    assert!(text.contains(told), "{text}");
+    let reported = "# - the group PERSIST_MFR of 2000h, whose entries are stored otherwise\n";
+    assert!(text.contains(reported), "{text}");
 }

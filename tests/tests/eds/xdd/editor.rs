@@ -84,11 +84,11 @@ fn indices(device: &Dictionary) -> Vec<u16> {
 fn what_is_switched_off_is_no_object_of_the_device() {
     let (compiled, _) = compiled("kiln.xdd", switched_off());
     assert_eq!(indices(&compiled.system.unwrap().devices[0]), [0x2001, 0x2008]);
-    let told = said("kiln.xdd", switched_off());
-    let told: Vec<&str> = told.lines().filter(|line| line.contains("XDD20")).collect();
-    assert_eq!(told.len(), 1, "{told:?}");
+    let reported = said("kiln.xdd", switched_off());
+    let reported: Vec<&str> = reported.lines().filter(|line| line.contains("XDD20")).collect();
+    assert_eq!(reported.len(), 1, "{reported:?}");
     let expected = "kiln.xdd:10:23: warning[XDD208]: 7 objects are switched off and left out: 2000h, 2002h, 2003h, 2004h and 3 more";
-    assert!(told[0].starts_with(expected), "{told:?}");
+    assert!(reported[0].starts_with(expected), "{reported:?}");
 }
 
 #[test]
@@ -204,14 +204,14 @@ fn groups_labels_and_lengths_are_kept() {
     let record = &system.devices[0].objects[&Index(0x2007)];
     let srdos = &record.editor.as_ref().unwrap().srdos;
     assert_eq!(srdos.get(&SubIndex(1)), Some(&PdoMapping::Both));
-    let told: Vec<&str> = compiled
+    let reported: Vec<&str> = compiled
         .diagnostics
         .iter()
         .filter(|one| one.code.id == "EDS512")
         .map(|one| one.message.as_str())
         .collect();
     assert_eq!(
-        told,
+        reported,
         [
             "`CO_storageGroup=no name` cannot be understood; it is left out",
             "`CO_accessSRDO=up` cannot be understood; it is left out"

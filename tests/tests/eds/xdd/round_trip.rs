@@ -175,9 +175,9 @@ fn an_xdc_says_what_the_dcf_says() {
     assert_eq!(found.values.len(), 16);
     assert_eq!(without_what_xdd_lacks(by_xdc), without_what_xdd_lacks(by_dcf));
     // The words of parameter files about the node are comments, whatever is in them.
-    let mut told = node.clone();
-    told.remarks = vec!["Tank 3, north -- not <south>".to_owned(), "zweite\u{1} Zeile -----".to_owned()];
-    let xdc = write_xdc(&system, device, &told, "everything.xdc");
+    let mut reported = node.clone();
+    reported.remarks = vec!["Tank 3, north -- not <south>".to_owned(), "zweite\u{1} Zeile -----".to_owned()];
+    let xdc = write_xdc(&system, device, &reported, "everything.xdc");
     let (_, again) = dcf("everything.xdc", xdc.clone());
     assert_eq!(again, expected);
     let text = String::from_utf8(xdc).unwrap();

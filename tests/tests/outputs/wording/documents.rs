@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use od_spec::model::{Access, Entry};
 
 use super::Output;
-use super::facts::{Facts, Limits, Reach, Told};
+use super::facts::{Facts, Limits, Reach, Reported};
 use super::markdown::{Page, Table};
 use super::read::{self, Range};
 
@@ -47,7 +47,7 @@ pub(crate) fn read(page: &Page, titles: &Titles, output: &mut Output<'_>) {
         let table = page.tables.iter().find(|table| table.anchors.contains(&anchor)).unwrap();
         for row in &table.rows {
             let sub = if object.is_structured() { row[0].parse().unwrap() } else { 0 };
-            output.tell(object.index.0, sub, |entry| facts(entry, table, row, titles));
+            output.report(object.index.0, sub, |entry| facts(entry, table, row, titles));
         }
     }
 }
@@ -65,13 +65,13 @@ fn facts(entry: &Entry, table: &Table, row: &[String], titles: &Titles) -> Facts
     let cell = |title: &str| {
         table.columns.iter().position(|column| column == title).map_or("", |at| row[at].as_str())
     };
-    let told = |title: &'static str| Some(cell(title)).filter(|text| !text.is_empty());
+    let reported = |title: &'static str| Some(cell(title)).filter(|text| !text.is_empty());
     let Range { low, high } =
-        told(titles.range).map(|text| read::range(entry, text).unwrap()).unwrap_or_default();
+        reported(titles.range).map(|text| read::range(entry, text).unwrap()).unwrap_or_default();
     Facts {
-        default: Told::Said(told(titles.default).map(|text| read::value(entry, text))),
+        default: Reported::Said(reported(titles.default).map(|text| read::value(entry, text))),
         limits: Limits::Narrowing { low, high },
-        step: told(titles.unit).map(read::step),
+        step: reported(titles.unit).map(read::step),
         special: special(entry, cell(titles.description), titles.language),
         reach: reach(cell(titles.access)),
         storage: read::storage(cell(titles.stored)).unwrap(),

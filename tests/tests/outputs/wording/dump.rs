@@ -7,7 +7,7 @@ use od_spec::model::{Access, Entry, Ratio, Value};
 use serde_json::Value as Json;
 
 use super::Output;
-use super::facts::{Facts, Limits, Reach, Step, Told};
+use super::facts::{Facts, Limits, Reach, Reported, Step};
 use super::read;
 
 /// Reads the dump of one device.
@@ -20,7 +20,7 @@ pub(crate) fn read(dump: &Json, output: &mut Output<'_>) {
             u16::from_str_radix(object["index"].as_str().unwrap().trim_start_matches("0x"), 16).unwrap();
         for shown in object["entries"].as_array().unwrap() {
             let sub = u8::try_from(shown["sub"].as_u64().unwrap()).unwrap();
-            output.tell(index, sub, |entry| facts(entry, shown, &units));
+            output.report(index, sub, |entry| facts(entry, shown, &units));
         }
     }
 }
@@ -57,7 +57,7 @@ fn facts(entry: &Entry, shown: &Json, units: &BTreeMap<&str, Step>) -> Facts {
         (integer(&special["value"]).unwrap(), transliterate(special["name"].as_str().unwrap()))
     });
     Facts {
-        default: Told::Said(default(entry, &shown["default"])),
+        default: Reported::Said(default(entry, &shown["default"])),
         limits: Limits::Exact { low: limit("min", "low"), high: limit("max", "high") },
         step: shown.get("unit").and_then(Json::as_str).map(|name| units[name].clone()),
         special: special.collect(),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use od_spec::model::{Access, DataType, Entry, PdoMapping, Storage, TypeKind, Value};
 
 use super::Output;
-use super::facts::{Facts, Limits, Reach, Told};
+use super::facts::{Facts, Limits, Reach, Reported};
 use super::read;
 
 /// A section with the comments above it.
@@ -23,7 +23,8 @@ pub(crate) fn read(text: &str, language: &str, output: &mut Output<'_>) {
         let Ok(index) = u16::from_str_radix(index, 16) else { continue };
         // The section of an array or record is about the object.
         if !section.keys.contains_key("SubNumber") {
-            output.tell(index, u8::from_str_radix(sub, 16).unwrap(), |entry| facts(entry, section, language));
+            output
+                .report(index, u8::from_str_radix(sub, 16).unwrap(), |entry| facts(entry, section, language));
         }
     }
 }
@@ -138,7 +139,7 @@ fn facts(entry: &Entry, section: &Section<'_>, language: &str) -> Facts {
         remarks.listed.iter().map(|listed| (listed.raw, listed.name.clone())).collect();
     remove_values(entry, &mut special);
     Facts {
-        default: Told::Said(written.or_else(|| remarks.default.map(|text| read::value(entry, text)))),
+        default: Reported::Said(written.or_else(|| remarks.default.map(|text| read::value(entry, text)))),
         limits,
         step: remarks.unit.map(read::step),
         special,

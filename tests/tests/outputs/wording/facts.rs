@@ -48,7 +48,7 @@ pub(crate) enum Limits {
 /// What one output says about one entry.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Facts {
-    pub default: Told<Option<Value>>,
+    pub default: Reported<Option<Value>>,
     pub limits: Limits,
     pub step: Option<Step>,
     /// Names by raw value, in ASCII.
@@ -60,7 +60,7 @@ pub(crate) struct Facts {
 
 /// A fact that an output may leave to another.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Told<T> {
+pub(crate) enum Reported<T> {
     Said(T),
     Elsewhere,
 }
@@ -73,7 +73,7 @@ pub(crate) fn disagreements(said: &Facts, entry: &Entry) -> Vec<String> {
             list.push(format!("{fact}: said {said}, is {model}"));
         }
     };
-    if let Told::Said(default) = &said.default {
+    if let Reported::Said(default) = &said.default {
         compare("default", format!("{default:?}"), format!("{:?}", entry.default));
     }
     let step =

@@ -79,7 +79,8 @@ fn remarks_about_a_manual_are_distinguished_from_functions_by_hand() {
     ] {
         assert!(speaks_of_a_manual(remark), "{remark}");
     }
-    for told in ["Push-button of the manual function.", "Manual command that the PMM passes to its PMC."] {
-        assert!(!speaks_of_a_manual(told), "{told}");
+    for reported in ["Push-button of the manual function.", "Manual command that the PMM passes to its PMC."]
+    {
+        assert!(!speaks_of_a_manual(reported), "{reported}");
     }
 }

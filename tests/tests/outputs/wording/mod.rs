@@ -38,7 +38,7 @@ impl<'a> Output<'a> {
     }
 
     /// Takes what is said about an entry, which the device has and nothing was said about before.
-    fn tell(&mut self, index: u16, sub: u8, facts: impl FnOnce(&Entry) -> Facts) {
+    fn report(&mut self, index: u16, sub: u8, facts: impl FnOnce(&Entry) -> Facts) {
         let id = EntryId { index: Index(index), sub: SubIndex(sub) };
         let entry = self.device.entry(id).unwrap_or_else(|| panic!("{} has no {id}", self.device.key));
         assert!(self.facts.insert(id, facts(entry)).is_none(), "{} {id} is stated twice", self.device.key);
@@ -51,11 +51,11 @@ impl<'a> Output<'a> {
 
     /// Where it says something else than the model.
     fn wrong(&self, name: &str) -> Vec<String> {
-        let told = self.facts.iter().flat_map(|(id, facts)| {
+        let reported = self.facts.iter().flat_map(|(id, facts)| {
             let list = disagreements(facts, self.device.entry(*id).unwrap());
             list.into_iter().map(move |text| format!("{name} {} {id}: {text}", self.device.key))
         });
-        told.collect()
+        reported.collect()
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use od_spec::model::{Access, BitErrors, Entry, PdoMapping, Storage};
 
 use super::Output;
-use super::facts::{Facts, Limits, Reach, Told};
+use super::facts::{Facts, Limits, Reach, Reported};
 use super::read::{self, Range};
 
 /// Where the facts of an entry end and sentences begin.
@@ -47,10 +47,10 @@ pub(crate) fn read(module: &str, output: &mut Output<'_>) {
                         Some(own) => format!("{}, {own}", facts.strip_suffix('.').unwrap()),
                         None => (*facts).to_owned(),
                     };
-                    output.tell(index, sub, |entry| read_facts(entry, &facts));
+                    output.report(index, sub, |entry| read_facts(entry, &facts));
                 }
             }
-            None => output.tell(index, sub.parse().unwrap(), |entry| read_facts(entry, facts)),
+            None => output.report(index, sub.parse().unwrap(), |entry| read_facts(entry, facts)),
         }
     }
 }
@@ -75,7 +75,7 @@ fn read_member(line: &str, output: &mut Output<'_>) {
     };
     let Some((index, sub)) = id.split_once("h.") else { return };
     let index = u16::from_str_radix(index, 16).unwrap();
-    output.tell(index, sub.parse().unwrap(), |entry| {
+    output.report(index, sub.parse().unwrap(), |entry| {
         let facts = text.replace('\\', "");
         let facts = facts.strip_prefix(&format!("{}: ", entry.name));
         read_facts(entry, facts.unwrap_or_else(|| panic!("{text} is not about {}", entry.name)))
@@ -93,7 +93,7 @@ fn read_facts(entry: &Entry, text: &str) -> Facts {
     let (word, is_locked) = access.strip_suffix(" locked").map_or((access, false), |word| (word, true));
     let mut facts = Facts {
         // A view has no value of its own.
-        default: if entry.alias.is_some() { Told::Elsewhere } else { Told::Said(None) },
+        default: if entry.alias.is_some() { Reported::Elsewhere } else { Reported::Said(None) },
         limits: Limits::Narrowing { low: None, high: None },
         step: None,
         special: BTreeMap::new(),
@@ -103,7 +103,7 @@ fn read_facts(entry: &Entry, text: &str) -> Facts {
     };
     for part in parts {
         if let Some(default) = part.strip_prefix("default ") {
-            facts.default = Told::Said(Some(read::value(entry, default)));
+            facts.default = Reported::Said(Some(read::value(entry, default)));
         } else if let Some(step) = part.strip_prefix("in ") {
             facts.step = Some(read::step(step));
         } else if let Some(mapping) = read::mapping(part) {

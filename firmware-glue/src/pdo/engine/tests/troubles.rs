@@ -11,8 +11,8 @@ fn a_sync_of_another_length_than_1019h_says_is_told_and_not_followed() {
         bench.handle(&frame(0x80, data), 0);
         assert_eq!(!bench.sent(0).is_empty(), follows);
         let length = u8::try_from(data.len()).expect("short");
-        let told = if follows { vec![] } else { vec![PdoEvent::SyncLength { length }] };
-        assert_eq!(bench.events(), told);
+        let reported = if follows { vec![] } else { vec![PdoEvent::SyncLength { length }] };
+        assert_eq!(bench.events(), reported);
     }
 }
 

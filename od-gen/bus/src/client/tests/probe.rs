@@ -4,16 +4,16 @@ use super::*;
 
 /// What a node has at an index: sub-indices, with what came when each was read.
 fn probed<B: Bus>(prober: &mut Prober<'_, B>, index: u16) -> Vec<(u8, String)> {
-    let told = |holds| match holds {
+    let reported = |holds| match holds {
         Holds::Bytes(bytes) => format!("{bytes:?}"),
         Holds::WriteOnly => "write only".to_owned(),
-        Holds::Untold(error) => error.to_string(),
+        Holds::Unreported(error) => error.to_string(),
     };
     prober
         .object(Index(index))
         .unwrap()
         .into_iter()
-        .map(|found| (found.id.sub.0, told(found.holds)))
+        .map(|found| (found.id.sub.0, reported(found.holds)))
         .collect()
 }
 

@@ -87,7 +87,7 @@ pub(super) fn told_differences(
                 code = code.max(print(&format!("{mark}{name}: {held} in the node, {wanted} in the file\n")));
             }
             None => {
-                let why = had.untold.iter().find(|(untold, _)| untold == id);
+                let why = had.unreported.iter().find(|(unreported, _)| unreported == id);
                 let why = why.map_or("it cannot be read", |(_, why)| why.as_str());
                 let message = format!("{}: cannot compare {name}: {why}", target.name());
                 code = code.max(report.refuse(Diagnostic::without_place(codes::ACCESS_FAILED, message)));

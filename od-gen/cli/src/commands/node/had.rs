@@ -17,7 +17,7 @@ use crate::report::Report;
 /// What a node has, and what it does not report, with the reason.
 pub(super) struct Had {
     pub(super) values: ParameterValues,
-    pub(super) untold: Vec<(EntryId, String)>,
+    pub(super) unreported: Vec<(EntryId, String)>,
 }
 
 /// So many entries that cannot be read are named with the reason, each on a line.
@@ -44,14 +44,14 @@ impl Had {
         report: &Report,
     ) {
         let mark = target.mark();
-        let untold: Vec<_> = self.untold.iter().filter(|(id, _)| judged.contains(id)).collect();
-        for (id, why) in untold.iter().take(NAMED) {
+        let unreported: Vec<_> = self.unreported.iter().filter(|(id, _)| judged.contains(id)).collect();
+        for (id, why) in unreported.iter().take(NAMED) {
             let name = target.words().entry(*id);
             report.note(&format!(
                 "{mark}a rule looks at {name}, which cannot be read ({why}): it is taken to have its default"
             ));
         }
-        let more: Vec<String> = untold.iter().skip(NAMED).map(|(id, _)| id.to_string()).collect();
+        let more: Vec<String> = unreported.iter().skip(NAMED).map(|(id, _)| id.to_string()).collect();
         if !more.is_empty() {
             report.note(&format!(
                 "{mark}so are {} more that cannot be read: {}",
@@ -117,7 +117,7 @@ fn had_of<B: Bus>(
     interrupt: Option<&Interrupt>,
     progress: &mut Progress,
 ) -> Result<Had, Unread> {
-    let mut had = Had { values: ParameterValues::new(), untold: Vec::new() };
+    let mut had = Had { values: ParameterValues::new(), unreported: Vec::new() };
     for (at, id) in ids.iter().copied().enumerate() {
         progress.show(at);
         if interrupt.is_some_and(Interrupt::is_wanted) {
@@ -134,11 +134,11 @@ fn had_of<B: Bus>(
                     });
                     had.values.insert(id, default.cloned().unwrap_or(value));
                 }
-                None => had.untold.push((id, format!("no value of type {}", entry.data_type.name()))),
+                None => had.unreported.push((id, format!("no value of type {}", entry.data_type.name()))),
             },
             // What a bad bus kept back is not left out of a file that is taken for whole.
             Err(error) if !error.is_of_node() && !error.is_of_frames() => {
-                had.untold.push((id, error.to_string()));
+                had.unreported.push((id, error.to_string()));
             }
             Err(error) => return Err(Unread::Failed(id, error)),
         }

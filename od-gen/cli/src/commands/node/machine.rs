@@ -155,7 +155,7 @@ impl Machine {
                 .unwrap_or_else(|code| code);
             outcomes.push(Outcome::after(beside.target, code, 0));
         }
-        Ok(self.told(&mut client, "compared", outcomes, report))
+        Ok(self.reported(&mut client, "compared", outcomes, report))
     }
 
     /// Gives each node the values of its file of a directory.
@@ -163,7 +163,7 @@ impl Machine {
         let all = self.files(&args.file, report)?;
         let mut client = connect(&args.file.node.link, report)?;
         let outcomes = restored(&mut client, args, &all, report)?;
-        Ok(self.told(&mut client, "restored", outcomes, report))
+        Ok(self.reported(&mut client, "restored", outcomes, report))
     }
 
     /// Reads the file of each node from a directory, and checks all of them.
@@ -187,7 +187,7 @@ impl Machine {
     }
 
     /// Reports what became of the nodes; the exit code.
-    fn told<B: Bus>(
+    fn reported<B: Bus>(
         &self,
         client: &mut Client<B>,
         done: &str,

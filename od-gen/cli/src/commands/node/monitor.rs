@@ -98,19 +98,19 @@ impl Watching<'_> {
 
     fn hear(&mut self, frame: &Frame) -> Result<(), u8> {
         let lines = self.monitor.take(&What::Frame(CanFrame::Standard(*frame)), self.now());
-        tell(&lines)
+        print(&lines)
     }
 
     /// Reports what has not come.
     fn look(&mut self) -> Result<(), u8> {
         let lines = self.monitor.poll(self.now());
-        tell(&lines)
+        print(&lines)
     }
 
     /// Prints what was seen of each node, and of which of them the answers do not count any more.
     fn end(&self, report: &Report) -> Result<u8, u8> {
         let summary = self.monitor.summary(self.now());
-        tell(&[summary.trim_end().to_owned()])?;
+        print(&[summary.trim_end().to_owned()])?;
         let outdated: Vec<String> = self.monitor.outdated().collect();
         if outdated.is_empty() {
             return Ok(SUCCESS);
@@ -130,8 +130,8 @@ impl Watching<'_> {
         for pdo in &asking.device.pdos {
             asking.read(self, id(pdo.communication_index(), 1))?;
             let count = match asking.read(self, id(pdo.mapping_index(), 0))? {
-                Answer::Told(bytes) => bytes.first().copied().unwrap_or(0),
-                Answer::Untold => 0,
+                Answer::Bytes(bytes) => bytes.first().copied().unwrap_or(0),
+                Answer::Nothing => 0,
                 Answer::Silent => return Ok(()),
             };
             for sub in 1..=count.min(MAPPED) {
@@ -153,9 +153,9 @@ struct Asking<'a> {
 /// What a node says to a question.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Answer {
-    Told(Vec<u8>),
+    Bytes(Vec<u8>),
     /// It does not have it, or does not report it.
-    Untold,
+    Nothing,
     /// It says nothing at all.
     Silent,
 }
@@ -164,25 +164,25 @@ impl Asking<'_> {
     /// Reads an entry. What goes over the bus meanwhile is printed.
     fn read(&mut self, watching: &mut Watching<'_>, id: EntryId) -> Result<Answer, u8> {
         let Some(entry) = self.device.entry(id).filter(|entry| entry.access.is_readable()) else {
-            return Ok(Answer::Untold);
+            return Ok(Answer::Nothing);
         };
-        let told = self.client.read_as(self.node, id, entry.data_type);
+        let described = self.client.read_as(self.node, id, entry.data_type);
         let own = SDO_ANSWERS + u16::from(self.node);
         for frame in std::mem::take(&mut self.client.bus().heard) {
             if frame.id().get() != own {
                 watching.hear(&frame)?;
             }
         }
-        Ok(match told {
+        Ok(match described {
             Ok(bytes) => {
                 watching.monitor.learn(self.node, id, &bytes);
-                Answer::Told(bytes)
+                Answer::Bytes(bytes)
             }
             Err(error) => {
                 let node = self.node;
                 self.report
                     .note(&format!("node {node} does not report {id}, which is taken as specified: {error}"));
-                if error.is_of_node() { Answer::Silent } else { Answer::Untold }
+                if error.is_of_node() { Answer::Silent } else { Answer::Nothing }
             }
         })
     }
@@ -215,7 +215,7 @@ impl Bus for Overheard<'_> {
 }
 
 /// Prints lines as they come, for a pipe, too. The exit code where they are no longer read.
-fn tell(lines: &[String]) -> Result<(), u8> {
+fn print(lines: &[String]) -> Result<(), u8> {
     if lines.is_empty() {
         return Ok(());
     }

@@ -114,7 +114,7 @@ fn described(heard: &Heard, known: &[(String, Identity)]) -> String {
             Revision::Same => "",
             Revision::Newer => ", of a newer revision, which is compatible",
             Revision::Other => ", of another revision",
-            Revision::Untold => ", of an unknown revision",
+            Revision::Unreported => ", of an unknown revision",
         };
         let _ = writeln!(text, "    can be {device}{remark}");
     }

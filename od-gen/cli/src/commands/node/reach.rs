@@ -50,7 +50,7 @@ pub(super) fn is_meant<B: Bus>(
     let mut meant = Ok(());
     for remark in remarks {
         match remark {
-            Remark::Untold(id) => report.note(&format!(
+            Remark::Unreported(id) => report.note(&format!(
                 "{} does not report {}: whether it is the one that is meant is not known",
                 target.name(),
                 target.words().entry(id)
@@ -91,7 +91,7 @@ fn differs(target: Target<'_>, one: &Contradiction) -> String {
         Fact::Serial => "stated for it",
     };
     let entry = target.words().entry(one.id);
-    format!("{entry} is 0x{:08X} there, 0x{:08X} {whose}", one.told, one.stated)
+    format!("{entry} is 0x{:08X} there, 0x{:08X} {whose}", one.reported, one.stated)
 }
 
 /// What is said of a node that is another one.

@@ -216,13 +216,13 @@ fn about_writes(
     let written: BTreeSet<EntryId> = writes.iter().map(|write| write.id).collect();
     let unwritten = assigned.origins.iter().filter(|(id, _)| !written.contains(id));
     let unwritten: BTreeSet<_> = unwritten.map(|(_, origin)| line(origin.span)).collect();
-    let mut told = Diagnostics::new();
+    let mut reported = Diagnostics::new();
     for one in found {
         if !one.labels.first().is_some_and(|label| unwritten.contains(&line(label.span))) {
-            told.push(one.clone());
+            reported.push(one.clone());
         }
     }
-    told
+    reported
 }
 
 /// What must not be written any more, as a node has refused something that belongs with it.

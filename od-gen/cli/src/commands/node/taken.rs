@@ -34,7 +34,7 @@ pub(super) fn parameters_of<B: Bus>(
     node.bit_rate = args.node.link.bit_rate.unwrap_or(0);
     node.values = had.values;
     node.serial_number = serial_number(client, target, report)?;
-    let untold = had.untold.iter().map(|(id, why)| format!("{}: {why}", target.words().entry(*id)));
+    let unreported = had.unreported.iter().map(|(id, why)| format!("{}: {why}", target.words().entry(*id)));
     let about = About {
         system: target.system,
         sources,
@@ -42,7 +42,7 @@ pub(super) fn parameters_of<B: Bus>(
         names_device: true,
         node_id: Some(target.id),
     };
-    let written = write_all(about, node, untold.collect());
+    let written = write_all(about, node, unreported.collect());
     for (lines, what) in [(&written.left_out, "left out"), (&written.findings, "wrong")] {
         for line in lines {
             report.note(&format!("{}{what}: {line}", target.mark()));

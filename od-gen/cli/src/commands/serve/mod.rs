@@ -411,9 +411,9 @@ impl Loop<'_, '_> {
             watch.frame(what);
         }
         if let Some(decoder) = &mut self.decoder {
-            let told = decoder.tell(what);
+            let described = decoder.describe(what);
             let seconds = self.start.elapsed().as_secs_f64();
-            self.report.write(&format!("({seconds:.6})  {told}\n"));
+            self.report.write(&format!("({seconds:.6})  {described}\n"));
         }
     }
 }

@@ -78,16 +78,16 @@ impl Drop for Terminal {
     }
 }
 
-/// Who is at a terminal.
+/// Whether a host is at the terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Host {
-    Nobody,
-    Somebody,
+    Absent,
+    Present,
 }
 
 fn listen(mut master: File, number: u64, events: &SyncSender<Event>) {
     let mut lines = Lines::default();
-    let mut host = Host::Nobody;
+    let mut host = Host::Absent;
     let mut buffer = [0; 512];
     loop {
         let count = match waiting(&master) {
@@ -97,7 +97,7 @@ fn listen(mut master: File, number: u64, events: &SyncSender<Event>) {
             Err(_) => return,
         };
         if count > 0 {
-            host = Host::Somebody;
+            host = Host::Present;
             for line in lines.take(buffer.get(..count).unwrap_or_default()) {
                 if events.send(Event::Line(number, line)).is_err() {
                     return;
@@ -105,8 +105,8 @@ fn listen(mut master: File, number: u64, events: &SyncSender<Event>) {
             }
             continue;
         }
-        if host == Host::Somebody && is_left(&master) {
-            host = Host::Nobody;
+        if host == Host::Present && is_left(&master) {
+            host = Host::Absent;
             lines.forget();
             if events.send(Event::Gone(number)).is_err() {
                 return;

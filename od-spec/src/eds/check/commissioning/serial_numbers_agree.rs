@@ -29,19 +29,19 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
         return;
     };
     let identity = view.objects.get(&Index(0x1018)).and_then(|identity| identity.subs.get(&4));
-    let Some(told) =
+    let Some(reported) =
         identity.and_then(|part| part.value("ParameterValue").or_else(|| part.value("DefaultValue")))
     else {
         return;
     };
-    let (Some(one), Some(other)) = (lenient_integer(node.value), lenient_integer(told.value)) else { return };
+    let (Some(one), Some(other)) = (lenient_integer(node.value), lenient_integer(reported.value)) else { return };
     // 0 means that it is not known.
     if one != other && one != 0 && other != 0 {
         let message = format!("the serial number of the node is {one:#X}, that of its identity {other:#X}");
         diagnostics.push(
             Diagnostic::new(CODE, node.span, message)
                 .label("of the node")
-                .with(told.span, "of the identity")
+                .with(reported.span, "of the identity")
                 .help("correct one of the two"),
         );
     }

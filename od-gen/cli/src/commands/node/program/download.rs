@@ -43,7 +43,7 @@ enum Wanted {
     /// The program is in this state. A node that does not report it has taken the command.
     State(State),
     /// The program is in this state, which the node has to report, because it has not answered the command.
-    Told(State),
+    Reported(State),
 }
 
 /// What an answer says about what is waited for.
@@ -74,7 +74,7 @@ impl<'a, B: Bus> Download<'a, B> {
         }
     }
 
-    /// Does all of it. What was reached in the end is in [`told`](Self::told).
+    /// Does all of it. What was reached in the end is in [`reported`](Self::reported).
     pub(super) fn carry_out(&mut self, data: &[u8]) -> Result<(), Failure> {
         let bus = |error| Failure::Access(self.places.control, AccessError::Bus(error));
         self.client.command(PRE_OPERATIONAL, self.target.id).map_err(bus)?;
@@ -105,7 +105,7 @@ impl<'a, B: Bus> Download<'a, B> {
                 if matches!(error, AccessError::Bus(_)) {
                     return Err(Failure::Access(control, error));
                 }
-                self.wait_for(Wanted::Told(after))?;
+                self.wait_for(Wanted::Reported(after))?;
                 self.effect = Effect::Done;
                 let name = self.target.words().entry(control);
                 self.report.note(&format!("{}{name}: {why}; read back, it is: {after}", self.target.mark()));
@@ -125,7 +125,7 @@ impl<'a, B: Bus> Download<'a, B> {
         self.begin(Step::Load)?;
         let mut progress = Progress::new("loaded", "bytes", data.len(), self.report.audience());
         let (mut most, interrupt) = (0, self.interrupt);
-        let told = |sent: usize| {
+        let reported = |sent: usize| {
             // Segments that were lost are sent again.
             if sent / PIECE > most / PIECE {
                 progress.show(sent);
@@ -133,7 +133,7 @@ impl<'a, B: Bus> Download<'a, B> {
             most = most.max(sent);
             if interrupt.is_wanted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let loaded = self.client.load(self.target.id, self.places.data, data, self.patience, told);
+        let loaded = self.client.load(self.target.id, self.places.data, data, self.patience, reported);
         progress.clear();
         let Err(error) = loaded else { return Ok(()) };
         self.effect = match &error {
@@ -201,7 +201,7 @@ impl<'a, B: Bus> Download<'a, B> {
     fn ask(&mut self, wanted: Wanted) -> Result<Found, Failure> {
         let id = match wanted {
             Wanted::Ready => self.places.flash.unwrap_or(self.places.control),
-            Wanted::State(_) | Wanted::Told(_) => self.places.control,
+            Wanted::State(_) | Wanted::Reported(_) => self.places.control,
         };
         let number = match self.read(id) {
             Ok(number) => number,
@@ -211,7 +211,7 @@ impl<'a, B: Bus> Download<'a, B> {
                 return match wanted {
                     // It answers, and does not report it.
                     Wanted::Ready | Wanted::State(_) => Ok(Found::Wanted),
-                    Wanted::Told(_) => Err(Failure::Access(id, error)),
+                    Wanted::Reported(_) => Err(Failure::Access(id, error)),
                 };
             }
         };
@@ -219,11 +219,11 @@ impl<'a, B: Bus> Download<'a, B> {
         Ok(match wanted {
             Wanted::Ready if is_busy && self.places.flash.is_some() => Found::NotYet(Failure::Busy(id)),
             Wanted::Ready => Found::Wanted,
-            Wanted::State(wanted) | Wanted::Told(wanted) => match number.and_then(state) {
-                Some(told) if told == wanted => Found::Wanted,
+            Wanted::State(wanted) | Wanted::Reported(wanted) => match number.and_then(state) {
+                Some(reported) if reported == wanted => Found::Wanted,
                 // The manufacturer knows more kinds of running, such as one on trial.
                 Some(State::Other(MANUFACTURER..)) if wanted == State::Started => Found::Wanted,
-                told => Found::NotYet(Failure::State(id, told)),
+                reported => Found::NotYet(Failure::State(id, reported)),
             },
         })
     }
@@ -233,7 +233,7 @@ impl<'a, B: Bus> Download<'a, B> {
     }
 
     /// What is said of a failure: what failed, what the node has, and what it says now.
-    pub(super) fn told(&mut self, failure: &Failure) -> Diagnostic {
+    pub(super) fn reported(&mut self, failure: &Failure) -> Diagnostic {
         let what = match self.effect {
             Effect::None | Effect::Unknown | Effect::Partly => self.step.verb(),
             Effect::Done => "go on with",

@@ -35,14 +35,14 @@ pub(super) fn program(args: &NodeProgramArgs, report: &Report) -> Result<u8, u8>
     let mut download = Download::new(&mut client, target, places, args, &interrupt, report);
     if let Err(failure) = download.carry_out(&data) {
         let is_interrupted = failure.is_interrupt();
-        let code = report.refuse(download.told(&failure));
+        let code = report.refuse(download.reported(&failure));
         return Err(if is_interrupted { INTERRUPTED } else { code });
     }
     let code = print(&format!("{}: program {} is loaded\n", target.name(), args.program));
-    let told = number(&mut client, target, Some(places.control), report).and_then(|running| {
+    let reported = number(&mut client, target, Some(places.control), report).and_then(|running| {
         Ok((running.and_then(state), number(&mut client, target, places.identification, report)?))
     });
-    let (running, after) = told.map_err(|failed| code.max(failed))?;
+    let (running, after) = reported.map_err(|failed| code.max(failed))?;
     let id = places.control;
     let mut text = format!("    {id}: {}\n", state_in_words(running));
     if let Some(id) = places.identification {

@@ -20,7 +20,7 @@ pub(super) struct Described {
 }
 
 /// What a node answered.
-pub(super) struct Told<'a> {
+pub(super) struct Findings<'a> {
     pub(super) node: u8,
     /// In kbit/s, where the user says it.
     pub(super) bit_rate: Option<u16>,
@@ -46,7 +46,7 @@ const fn id(index: u16, sub: u8) -> EntryId {
     EntryId { index: Index(index), sub: SubIndex(sub) }
 }
 
-impl<'a> Told<'a> {
+impl<'a> Findings<'a> {
     pub(super) fn new(node: u8, bit_rate: Option<u16>, found: &'a [Found]) -> Self {
         let mapped = mapped(found);
         let found: BTreeMap<EntryId, &Holds> = found.iter().map(|one| (one.id, &one.holds)).collect();
@@ -400,7 +400,7 @@ fn remark(holds: &Holds, data_type: Option<DataType>) -> Option<String> {
     let why = match holds {
         Holds::Bytes(_) => return None,
         Holds::WriteOnly => "it can only be written".to_owned(),
-        Holds::Untold(error) => format!("it could not be read ({error})"),
+        Holds::Unreported(error) => format!("it could not be read ({error})"),
     };
     Some(match data_type {
         Some(_) => why,

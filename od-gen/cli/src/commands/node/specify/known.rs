@@ -193,7 +193,7 @@ mod tests {
         let values =
             [(id(0x1600, 1), 0x2000_0110), (id(0x1A00, 1), 0x2000_0110), (id(0x1A00, 2), 0x2001_0008)];
         let all = all_mapped(values.into_iter().chain([(id(0x1A00, 3), 0), (id(0x1800, 1), 0x185)]));
-        let told: Vec<_> = all.iter().map(|(id, one)| (id.index.0, one.mapping, one.bits)).collect();
-        assert_eq!(told, [(0x2000, PdoMapping::Both, 16), (0x2001, PdoMapping::Transmit, 8)]);
+        let reported: Vec<_> = all.iter().map(|(id, one)| (id.index.0, one.mapping, one.bits)).collect();
+        assert_eq!(reported, [(0x2000, PdoMapping::Both, 16), (0x2001, PdoMapping::Transmit, 8)]);
     }
 }

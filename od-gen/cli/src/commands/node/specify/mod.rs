@@ -25,7 +25,7 @@ use crate::output::{file_name, forced, keep};
 use crate::report::{Report, print, shown};
 pub(crate) use args::SpecifyArgs;
 use ask::{STANDARD, objects};
-use document::{Described, Told, hexadecimal};
+use document::{Described, Findings, hexadecimal};
 
 /// What makers and device profiles have.
 const OTHERS: RangeInclusive<u16> = 0x2000..=0x9FFF;
@@ -154,7 +154,7 @@ fn of_eds<B: Bus>(
                     Fact::Revision => "revision",
                 },
                 found.id,
-                found.told,
+                found.reported,
                 found.stated
             ));
         }
@@ -177,7 +177,7 @@ fn of_objects<B: Bus>(
             Diagnostic::without_place(codes::ACCESS_FAILED, message).help("ask for others, with `--range`"),
         ));
     }
-    let Described { document, comments } = Told::new(node, bit_rate, &found).described(&eds_name(name));
+    let Described { document, comments } = Findings::new(node, bit_rate, &found).described(&eds_name(name));
     let mut sources = SourceMap::new();
     let compiled = compiled(name, document.to_bytes(), &mut sources, report);
     let asked: Vec<String> = std::iter::once(&STANDARD)

@@ -147,9 +147,9 @@ impl<'a> Watch<'a> {
     /// A frame was on the bus.
     pub(super) fn frame(&mut self, what: &What) {
         self.counted.0 += 1;
-        let told = self.decoder.told(what);
-        if let (Service::Emergency, Some(node)) = (told.service, told.node) {
-            let text = told.text.split_once("EMCY  ").map_or(told.text.as_str(), |(_, text)| text);
+        let described = self.decoder.described(what);
+        if let (Service::Emergency, Some(node)) = (described.service, described.node) {
+            let text = described.text.split_once("EMCY  ").map_or(described.text.as_str(), |(_, text)| text);
             self.view.rows.emergency(node, text);
         }
     }

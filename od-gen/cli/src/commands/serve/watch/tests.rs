@@ -74,9 +74,9 @@ fn the_view_shows_what_nodes_have_and_follows_keys() {
     node.raise(Emergency::new(0x4210), 0);
     let mut decoder = Decoder::new(known());
     for frame in bus.poll(0) {
-        let told = decoder.told(&What::Frame(CanFrame::Standard(frame)));
-        if told.service == Service::Emergency {
-            view.rows.emergency(5, told.text.split_once("EMCY  ").unwrap().1);
+        let described = decoder.described(&What::Frame(CanFrame::Standard(frame)));
+        if described.service == Service::Emergency {
+            view.rows.emergency(5, described.text.split_once("EMCY  ").unwrap().1);
         }
     }
     view.rows.look(&bus);
