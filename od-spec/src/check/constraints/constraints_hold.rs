@@ -163,7 +163,9 @@ fn finding(view: &View<'_>, constraint: &Constraint, broken: &Broken) -> Diagnos
     let of_ladder = set.map_or(&[][..], |_| named.as_slice());
     let mut reported: Vec<Span> = set.map(|set| set.place).into_iter().collect();
     for named in of_ladder {
-        let Some(value) = view.value(named.entry).filter(|_| !reported.contains(&named.place)) else { continue };
+        let Some(value) = view.value(named.entry).filter(|_| !reported.contains(&named.place)) else {
+            continue;
+        };
         reported.push(named.place);
         diagnostic = diagnostic.with(named.place, format!("{} is {value}", named.entry));
     }

@@ -70,6 +70,20 @@ pub(crate) fn beside(name: &str) -> Result<PathBuf, Failure> {
     }
 }
 
+/// How many arguments of a command its failure shows: a list of a hundred files says no more than its first ones.
+const ARGUMENTS_SHOWN: usize = 16;
+
+/// A command as a failure shows it.
+fn shown(command: &Command) -> String {
+    let mut words = vec![command.get_program().to_string_lossy()];
+    words.extend(command.get_args().take(ARGUMENTS_SHOWN).map(std::ffi::OsStr::to_string_lossy));
+    let more = command.get_args().len().saturating_sub(ARGUMENTS_SHOWN);
+    if more > 0 {
+        words.push(format!("… and {more} more").into());
+    }
+    words.join(" ")
+}
+
 impl Runner {
     pub(crate) fn cargo(&mut self, arguments: &[&str]) -> Result<(), Failure> {
         self.run(cargo().args(arguments))
@@ -103,8 +117,7 @@ impl Runner {
         let mut child = child.map_err(|error| format!("cannot run {name}: {error}"))?;
         self.pass_on(BufReader::new(reader))?;
         let status = child.wait()?;
-        let arguments = command.get_args().map(|argument| argument.to_string_lossy().into_owned());
-        let said = format!("{name} {}", arguments.collect::<Vec<_>>().join(" "));
+        let said = shown(command);
         match status.code() {
             Some(0) => Ok(()),
             Some(INCOMPLETE) => {
@@ -180,5 +193,9 @@ search: 7 passed, 8 failed
         assert!(matches!(run("exit 3"), (Ok(()), Some(_))));
         assert!(matches!(run("exit 1"), (Err(failure), None) if failure.contains("sh -c exit 1")));
         assert!(Runner::default().run(&mut Command::new("no-program-has-this-name")).is_err());
+        let mut command = Command::new("false");
+        command.args((0..20).map(|number| number.to_string()));
+        let failure = Runner::default().run(&mut command).unwrap_err().to_string();
+        assert!(failure.contains("`false 0 1 2 ") && failure.contains(" 15 … and 4 more`"), "{failure}");
     }
 }

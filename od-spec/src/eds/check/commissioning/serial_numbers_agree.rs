@@ -34,7 +34,9 @@ fn check(view: &View<'_>, diagnostics: &mut Diagnostics) {
     else {
         return;
     };
-    let (Some(one), Some(other)) = (lenient_integer(node.value), lenient_integer(reported.value)) else { return };
+    let (Some(one), Some(other)) = (lenient_integer(node.value), lenient_integer(reported.value)) else {
+        return;
+    };
     // 0 means that it is not known.
     if one != other && one != 0 && other != 0 {
         let message = format!("the serial number of the node is {one:#X}, that of its identity {other:#X}");
