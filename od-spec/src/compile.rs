@@ -13,7 +13,7 @@ use crate::eds::read::{Read, read};
 use crate::eds::view::{FileFacts, View};
 use crate::files::{self, Loader};
 use crate::keys;
-use crate::library::shipped::{LIBRARIES, keep, kept_as};
+use crate::library::shipped::{LIBRARIES, built_in};
 use crate::model::System;
 use crate::node_of_file::NodeOfFile;
 use crate::parameters::{is_parameter_file, of_node};
@@ -324,25 +324,19 @@ fn libraries(
             diagnostics.push(files::twice("library", first.span, name));
             continue;
         }
-        let built_in = LIBRARIES.iter().find(|(library, _)| *library == name.value);
-        let id = match built_in {
-            Some((library, text)) => sources.add(format!("<{library}>"), *text),
-            None => match files::read(name, &from, loader, missing_library, no_library) {
-                Ok(text) => sources.add(files::beside(&from, &name.value), text),
-                Err(diagnostic) => {
-                    diagnostics.push(*diagnostic);
-                    complete = false;
-                    continue;
-                }
-            },
-        };
-        if built_in.is_some()
-            && let Some(library) = kept_as(&name.value, id, &shown)
-        {
-            libraries.push(library);
+        if let Some((library, text)) = LIBRARIES.iter().find(|(library, _)| *library == name.value) {
+            let id = sources.add(format!("<{library}>"), *text);
+            libraries.extend(built_in(library, id, &shown, sources));
             continue;
         }
-        let said = diagnostics.iter().count();
+        let id = match files::read(name, &from, loader, missing_library, no_library) {
+            Ok(text) => sources.add(files::beside(&from, &name.value), text),
+            Err(diagnostic) => {
+                diagnostics.push(*diagnostic);
+                complete = false;
+                continue;
+            }
+        };
         let Some(mut library) = file(sources, id, &shown, loader, diagnostics) else {
             complete = false;
             continue;
@@ -353,11 +347,7 @@ fn libraries(
             continue;
         }
         resolve::expand(&mut library, diagnostics);
-        let library = Arc::new(library);
-        if built_in.is_some() && diagnostics.iter().count() == said {
-            keep(&name.value, &shown, &library);
-        }
-        libraries.push(library);
+        libraries.push(Arc::new(library));
     }
     complete.then_some(libraries)
 }

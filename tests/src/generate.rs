@@ -14,6 +14,8 @@ use od_spec::diag::Diagnostics;
 use od_spec::diag::render::{Format, render};
 use od_spec::model::System;
 use od_spec::source::SourceMap;
+use od_spec::yaml::packed::pack;
+use od_spec::yaml::parse;
 
 use crate::examples::pages;
 use crate::{Failure, compile_with_sources, root};
@@ -53,7 +55,28 @@ fn shipped() -> Result<Vec<GeneratedFile>, Failure> {
 /// As [`all`].
 pub fn texts() -> Result<Vec<GeneratedFile>, Failure> {
     let schema = ("od-spec/schema/od.schema.json".to_owned(), od_reference::json_schema().into_bytes());
-    Ok([schema].into_iter().chain(reference_pages()).chain(pages()?).collect())
+    Ok([schema].into_iter().chain(reference_pages()).chain(pages()?).chain(trees()?).collect())
+}
+
+/// The texts that are part of the compiler, with the files of their packed trees.
+const TREES: [(&str, &str); 5] = [
+    ("od-spec/profiles/cia301.od.yaml", "od-spec/profiles/cia301.tree"),
+    ("od-spec/profiles/cia302.od.yaml", "od-spec/profiles/cia302.tree"),
+    ("od-spec/profiles/cia401.od.yaml", "od-spec/profiles/cia401.tree"),
+    ("od-spec/profiles/cia402.od.yaml", "od-spec/profiles/cia402.tree"),
+    ("od-spec/src/standard/runs.od.yaml", "od-spec/src/standard/runs.tree"),
+];
+
+fn trees() -> Result<Vec<GeneratedFile>, Failure> {
+    let tree = |(text, packed): &(&str, &str)| {
+        let mut sources = SourceMap::new();
+        let file = sources.add(*text, fs::read_to_string(root().join(text))?);
+        let source = sources.file(file);
+        let tree = parse(file, source, &mut Diagnostics::new());
+        let bytes = tree.and_then(|tree| pack(source.text(), &tree)).ok_or(format!("{text} is broken"))?;
+        Ok(((*packed).to_owned(), bytes))
+    };
+    TREES.iter().map(tree).collect()
 }
 
 /// The folders of the book that contain nothing but generated pages.
@@ -161,7 +184,9 @@ pub fn first_difference(files: Vec<GeneratedFile>) -> Option<String> {
     for (path, bytes) in files {
         let old = fs::read(root().join(&path)).unwrap_or_default();
         if old != bytes {
-            let (old, new) = (String::from_utf8_lossy(&old), String::from_utf8_lossy(&bytes));
+            let (Ok(old), Ok(new)) = (str::from_utf8(&old), str::from_utf8(&bytes)) else {
+                return Some(format!("{path} is not current: run `{COMMAND}`"));
+            };
             let line = old.lines().zip(new.lines()).take_while(|(old, new)| old == new).count();
             return Some(format!(
                 "{path} is not current from line {}:\n  - {}\n  + {}\nrun `{COMMAND}`",

@@ -7,14 +7,12 @@ use std::fmt::Write as _;
 
 use crate::ast::{ObjectDecl, Spec};
 use crate::compile::compile_with;
-use crate::decode::decode;
-use crate::diag::Diagnostics;
+use crate::decode::read_own;
 use crate::files::NoFiles;
 use crate::library::shipped::LIBRARIES;
 use crate::model::{Entry, Index, NamedType, Object, SubIndex, Unit};
 use crate::source::SourceMap;
 use crate::standard;
-use crate::yaml;
 
 /// A built-in library: what a specification that uses it can take from it.
 #[derive(Debug, Clone)]
@@ -77,8 +75,7 @@ pub fn library_in(name: &str, languages: &[String]) -> Option<Library> {
     let (name, text) = LIBRARIES.iter().find(|(library, _)| *library == name)?;
     let mut sources = SourceMap::new();
     let id = sources.add(format!("<{name}>"), *text);
-    let mut diagnostics = Diagnostics::new();
-    let spec = decode(&yaml::parse(id, sources.file(id), &mut diagnostics)?, &mut diagnostics);
+    let spec = read_own(&shipped::tree(name, id, &sources)?, &[]);
     let indices = indices(&spec);
     let plain = |_: &ObjectDecl| String::new();
     let mut system = probe(name, languages, &indices, plain)?;

@@ -5,9 +5,11 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock};
 
 use crate::ast::Spec;
+use crate::decode::read_own;
 use crate::diag::Diagnostics;
+use crate::resolve;
 use crate::source::{FileId, SourceMap};
-use crate::yaml::{self, Node};
+use crate::yaml::{self, Node, packed};
 
 /// Libraries that come with the compiler: name and text.
 pub const LIBRARIES: &[(&str, &str)] = &[
@@ -17,11 +19,30 @@ pub const LIBRARIES: &[(&str, &str)] = &[
     ("cia402", include_str!("../../profiles/cia402.od.yaml")),
 ];
 
+/// Their trees, in the same order.
+const TREES: [&[u8]; LIBRARIES.len()] = [
+    include_bytes!("../../profiles/cia301.tree"),
+    include_bytes!("../../profiles/cia302.tree"),
+    include_bytes!("../../profiles/cia401.tree"),
+    include_bytes!("../../profiles/cia402.tree"),
+];
+
+/// The tree of a library that is a file of a compilation.
+pub(crate) fn tree(name: &str, file: FileId, sources: &SourceMap) -> Option<Node> {
+    unpacked(file, sources, TREES[place(name)?])
+}
+
+/// The tree of a text of this crate: its packed one, or after a change of the text, what it is parsed to.
+pub(crate) fn unpacked(file: FileId, sources: &SourceMap, tree: &[u8]) -> Option<Node> {
+    let source = sources.file(file);
+    packed::unpack(file, source.text(), tree).or_else(|| yaml::parse(file, source, &mut Diagnostics::new()))
+}
+
 /// The features of a library of [`LIBRARIES`] with what it says about each; nothing is looked up.
 pub fn features(name: &str, text: &str) -> Vec<(String, Node)> {
     let mut sources = SourceMap::new();
     let file = sources.add(name, text);
-    let tree = yaml::parse(file, sources.file(file), &mut Diagnostics::new());
+    let tree = tree(name, file, &sources);
     let features = tree.as_ref().and_then(|tree| tree.get("features")).map(Node::entries).unwrap_or_default();
     features.iter().map(|(name, node)| (name.value.clone(), node.clone())).collect()
 }
@@ -45,19 +66,26 @@ pub(crate) fn kept(name: &str) -> Option<Arc<Spec>> {
     KEPT.with_borrow(|kept| kept[place].as_ref().map(|(_, library)| Arc::clone(library)))
 }
 
-/// A library that was read in these languages from a file with the same number, so that its places are those of this file.
-pub(crate) fn kept_as(name: &str, file: FileId, languages: &[String]) -> Option<Arc<Spec>> {
+/// A library with its texts in some languages, from a file of a compilation: as it was read last if that was the same.
+pub(crate) fn built_in(
+    name: &str,
+    file: FileId,
+    languages: &[String],
+    sources: &SourceMap,
+) -> Option<Arc<Spec>> {
     let place = place(name)?;
     let is_same = |(of, library): &&Kept| library.file == file && of == languages;
-    KEPT.with_borrow(|kept| kept[place].as_ref().filter(is_same).map(|(_, library)| Arc::clone(library)))
-}
-
-/// Keeps a library that was read in these languages.
-pub(crate) fn keep(name: &str, languages: &[String], library: &Arc<Spec>) {
-    if let Some(place) = place(name) {
-        let kept = (languages.to_vec(), Arc::clone(library));
-        KEPT.with_borrow_mut(|places| places[place] = Some(kept));
+    if let Some(library) =
+        KEPT.with_borrow(|kept| kept[place].as_ref().filter(is_same).map(|(_, library)| Arc::clone(library)))
+    {
+        return Some(library);
     }
+    let mut library = read_own(&tree(name, file, sources)?, languages);
+    resolve::expand(&mut library, &mut Diagnostics::new());
+    let library = Arc::new(library);
+    let kept = (languages.to_vec(), Arc::clone(&library));
+    KEPT.with_borrow_mut(|places| places[place] = Some(kept));
+    Some(library)
 }
 
 /// The libraries by the names of their features; asked only about a feature that a specification does not find.

@@ -10,17 +10,17 @@ use crate::ast::Spec;
 use crate::check::standard::continued;
 use crate::check::standard_objects::from_library::{CIA302, CIA401, CIA402};
 use crate::check::{Rule, Rules, Standard};
-use crate::decode::decode;
+use crate::decode::read_own;
 use crate::diag::Diagnostics;
-use crate::library::shipped::{LIBRARIES, kept};
+use crate::library::shipped::{LIBRARIES, kept, tree, unpacked};
 use crate::model::{DataType, Dictionary, Index, Object, SubIndex};
 use crate::resolve;
 use crate::source::SourceMap;
 use crate::wording::FileFormat;
-use crate::yaml;
 
 /// Objects of CiA 301 that come in runs and are in no library, each described by its first one.
 const RUNS: &str = include_str!("runs.od.yaml");
+const TREE_OF_RUNS: &[u8] = include_bytes!("runs.tree");
 
 static IN_LIBRARY: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped("cia301"));
 /// Asked only for an object that is not the library's.
@@ -28,20 +28,21 @@ static OF_MANAGERS: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped(CIA3
 static OF_IO_MODULES: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped(CIA401));
 static OF_DRIVES: LazyLock<Option<Dictionary>> = LazyLock::new(|| shipped(CIA402));
 /// Apart from the library, which takes much longer to read: every device with PDOs asks for these.
-static IN_RUNS: LazyLock<Option<Dictionary>> = LazyLock::new(|| resolved(&read(RUNS)?));
+static IN_RUNS: LazyLock<Option<Dictionary>> = LazyLock::new(runs);
 
 fn shipped(name: &str) -> Option<Dictionary> {
-    match kept(name) {
-        Some(decoded) => resolved(&decoded),
-        None => resolved(&read(LIBRARIES.iter().find(|(library, _)| *library == name)?.1)?),
+    if let Some(library) = kept(name) {
+        return resolved(&library);
     }
+    let mut sources = SourceMap::new();
+    let file = sources.add(name, LIBRARIES.iter().find(|(library, _)| *library == name)?.1);
+    resolved(&read_own(&tree(name, file, &sources)?, &[]))
 }
 
-fn read(text: &str) -> Option<Spec> {
-    let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
-    let file = sources.add("standard", text);
-    let spec = decode(&yaml::parse(file, sources.file(file), &mut diagnostics)?, &mut diagnostics);
-    (!diagnostics.has_errors()).then_some(spec)
+fn runs() -> Option<Dictionary> {
+    let mut sources = SourceMap::new();
+    let file = sources.add("runs", RUNS);
+    resolved(&read_own(&unpacked(file, &sources, TREE_OF_RUNS)?, &[]))
 }
 
 fn resolved(spec: &Spec) -> Option<Dictionary> {
@@ -102,11 +103,20 @@ pub(crate) const fn rules<'a>(list: &'a [&'a Rule]) -> Rules<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::decode::decode;
+    use crate::yaml::parse;
 
     #[test]
     fn the_standards_are_read_without_a_remark() {
         assert!(IN_LIBRARY.is_some() && IN_RUNS.is_some());
         assert!(OF_MANAGERS.is_some() && OF_IO_MODULES.is_some() && OF_DRIVES.is_some());
+        for (name, text) in LIBRARIES.iter().chain(&[("runs", RUNS)]) {
+            let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
+            let file = sources.add(*name, *text);
+            let tree = parse(file, sources.file(file), &mut diagnostics).unwrap();
+            decode(&tree, &mut diagnostics);
+            assert!(diagnostics.is_empty(), "{name}: {diagnostics:?}");
+        }
     }
 
     #[test]

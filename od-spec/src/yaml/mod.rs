@@ -7,6 +7,7 @@
 mod characters;
 pub(crate) mod gaps;
 mod lenient;
+pub mod packed;
 
 use std::collections::{BTreeMap, BTreeSet};
 
