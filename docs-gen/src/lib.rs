@@ -8,6 +8,7 @@ mod diagrams;
 mod language;
 mod options;
 mod pages;
+pub mod portal;
 mod printed;
 mod source;
 mod tables;
@@ -16,7 +17,7 @@ pub mod view;
 
 use od_spec::model::System;
 
-pub use options::Options;
+pub use options::{Changed, CodeNames, Gaps, InLanguage, Options, Origin, Siblings, Since};
 pub use printed::{Difference, PrintedTable, TableIndex};
 pub use templates::{Format, Page, TemplateError, Templates};
 pub use view::Context;
@@ -34,18 +35,25 @@ pub fn context(system: &System, options: &Options) -> Context {
     Context {
         format: view::FORMAT,
         language: source.language.code.to_owned(),
-        words: source.words(),
+        words: source.language.words(),
         synonyms: source.language.synonyms(),
         errata: options.errata,
+        siblings: options.siblings.clone(),
+        origin: options.origin.clone(),
+        version: env!("CARGO_PKG_VERSION"),
         system: view::SystemView {
             title: system.title.clone(),
+            subtitle: source.text(&document.subtitle),
             vendor: system.vendor.name.clone(),
+            address: source.lines(&document.address, &od_spec::model::Devices::All),
+            logo: options.logo.clone(),
             source: document.source.clone().unwrap_or_default(),
             about: source.text(&document.about),
             revision: issue.map_or_else(String::new, |issue| issue.number.clone()),
             date: issue.map_or_else(String::new, |issue| source.wording.language.date(issue.date)),
         },
         devices,
+        notation: source.notation(),
         warnings: source.warnings(&chapters),
         chapters,
         appendices,

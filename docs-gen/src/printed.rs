@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use crate::source::Source;
 use crate::source::outline::kind_of;
-use crate::view::{Cell, FigureView};
+use crate::tables::objects::column_of_entry;
+use crate::view::{Cell, FigureView, Table};
 
 /// Index of the manual's tables, for programs.
 #[derive(Debug, Clone, Serialize)]
@@ -41,6 +42,10 @@ pub struct PrintedTable {
     pub page: String,
     /// Rows of the table that takes its place.
     pub rows: usize,
+    /// Keys of its columns here.
+    pub columns: Vec<&'static str>,
+    /// Those that the printed table does not have; empty where the specification does not state which it has.
+    pub added: Vec<&'static str>,
     /// Numbers of the errata about it.
     pub errata: Vec<usize>,
     /// Its facts that differ on purpose.
@@ -82,24 +87,31 @@ fn text_only<S: serde::Serializer>(cell: &Cell, serializer: S) -> Result<S::Ok, 
 
 /// The column in which a fact is.
 const fn column(kind: ErratumKind, content: &TableContent) -> Option<&'static str> {
-    let detail = matches!(content, TableContent::Objects(_));
-    if !detail && !matches!(content, TableContent::Overview(_)) {
-        return None;
-    }
-    match kind {
-        ErratumKind::Index => Some("index"),
-        ErratumKind::Name => Some("name"),
-        ErratumKind::Type | ErratumKind::Sign => Some("type"),
-        ErratumKind::Access => Some("access"),
-        ErratumKind::ObjectType if !detail => Some("object"),
-        ErratumKind::Stored if !detail => Some("mem"),
-        ErratumKind::SubIndex if detail => Some("sub"),
-        ErratumKind::Default if detail => Some("default"),
-        ErratumKind::Limit if detail => Some("range"),
-        ErratumKind::Unit if detail => Some("unit"),
-        ErratumKind::Pdo if detail => Some("map"),
+    match (content, kind) {
+        (TableContent::Objects(_), kind) => column_of_entry(kind),
+        (TableContent::Overview(_), ErratumKind::ObjectType) => Some("object"),
+        (TableContent::Overview(_), ErratumKind::Stored) => Some("mem"),
+        (
+            TableContent::Overview(_),
+            ErratumKind::Index
+            | ErratumKind::Name
+            | ErratumKind::Type
+            | ErratumKind::Sign
+            | ErratumKind::Access,
+        ) => column_of_entry(kind),
         _ => None,
     }
+}
+
+/// The keys of the columns of a table, each once.
+fn columns(table: &Table) -> Vec<&'static str> {
+    let mut keys = Vec::new();
+    for column in table.grids.iter().flat_map(|grid| &grid.columns) {
+        if !keys.contains(&column.key) {
+            keys.push(column.key);
+        }
+    }
+    keys
 }
 
 impl Source<'_> {
@@ -112,6 +124,10 @@ impl Source<'_> {
                 for (position, printed) in section.tables.iter().enumerate() {
                     let id = TableId { section: plan.position, table: position };
                     let Some(table) = self.table(id) else { continue };
+                    let columns = columns(&table);
+                    let is_added = |key: &&&str| !printed.columns.iter().any(|column| column == *key);
+                    let is_stated = !printed.columns.is_empty();
+                    let added = columns.iter().filter(|_| is_stated).filter(is_added).copied().collect();
                     list.push(PrintedTable {
                         number: printed.number,
                         title: table.title.clone(),
@@ -126,9 +142,11 @@ impl Source<'_> {
                         differs: table
                             .errata
                             .iter()
-                            .map(|number| self.difference(*number, &printed.content))
+                            .map(|mark| self.difference(mark.number, &printed.content))
                             .collect(),
-                        errata: table.errata,
+                        errata: table.errata.iter().map(|mark| mark.number).collect(),
+                        columns,
+                        added,
                     });
                 }
             }
@@ -157,8 +175,8 @@ impl Source<'_> {
             kind: erratum.kind.word(),
             entries: entries.map(ErratumPlace::to_string).collect(),
             column: column(erratum.kind, content),
-            prints: self.text(&erratum.prints).text,
-            reads: self.text(&erratum.reads).text,
+            prints: self.quoted(&erratum.prints).text,
+            reads: self.quoted(&erratum.reads).text,
         }
     }
 }

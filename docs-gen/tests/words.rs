@@ -7,9 +7,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use docs_gen::{Context, Format, Options, Templates, context};
+use docs_gen::portal::{Document, Portal};
+use docs_gen::{Changed, Context, Format, Gaps, Options, Origin, Since, Templates, context};
 use minijinja::value::{Serde, Value};
-use od_spec::model::{Dictionary, System};
+use od_spec::model::{Dictionary, Index, System};
 use od_spec::source::SourceMap;
 use od_spec::wording::{Language, Texts};
 use od_spec::{Loader, compile};
@@ -68,6 +69,17 @@ objects:
 pdos: {lamp: {receive: {1: {map: [level]}}}}
 ";
 
+/// An EDS: what it has no keys for is not known.
+const EDS: &str = "\
+[DeviceInfo]
+ProductName=Lamp
+[2000]
+ParameterName=level
+ObjectType=7
+DataType=5
+AccessType=rw
+";
+
 /// A bus coupler, with modules that bring objects and sub-indices.
 const COUPLER: &str = "\
 od-spec: 1
@@ -111,8 +123,22 @@ fn system(name: &str, text: &str) -> Specification {
 fn systems() -> Vec<Specification> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let read = |path: &&str| system(path, &std::fs::read_to_string(root.join(path)).unwrap());
-    let own = [("views", VIEWS), ("lamp", SAVED_TOGETHER), ("coupler", COUPLER)];
+    let own = [("views", VIEWS), ("lamp", SAVED_TOGETHER), ("coupler", COUPLER), ("lamp.eds", EDS)];
     SPECIFICATIONS.iter().map(read).chain(own.map(|(name, text)| system(name, text))).collect()
+}
+
+/// A change of every device.
+fn since() -> Since {
+    let changed = Changed {
+        device: None,
+        index: None,
+        sign: '~',
+        place: "2000h level".to_owned(),
+        values: "default: 1 → 2".to_owned(),
+        consequences: "changes behaviour".to_owned(),
+    };
+    let of_type = Changed { index: Some(Index(0x1000)), ..changed.clone() };
+    Since { name: "lamp-1.od.yaml".to_owned(), changes: vec![changed, of_type] }
 }
 
 /// What replaces a word in a document, to see where templates print it.
@@ -146,7 +172,10 @@ fn take_shown(missing: &mut BTreeMap<&'static str, &str>, mut context: Context) 
         if missing.is_empty() {
             return;
         }
-        for page in Templates::new(Some(format), &[]).unwrap().print(&context).unwrap() {
+        let templates = Templates::new(Some(format), &[]).unwrap();
+        let portal = Portal::new(&context, vec![Document::of("a", &context)]);
+        let start_page = templates.print_portal(&portal).unwrap();
+        for page in templates.print(&context).unwrap().into_iter().chain(start_page) {
             for key in marked(&page.text) {
                 missing.remove(key);
             }
@@ -158,8 +187,15 @@ fn take_shown(missing: &mut BTreeMap<&'static str, &str>, mut context: Context) 
 fn every_word_is_shown_in_every_language() {
     let systems = systems();
     for language in Language::ALL {
-        let options = Options { language: Some(language.code().to_owned()), ..Options::default() };
-        let contexts: Vec<_> = systems.iter().map(|one| context(&one.system, &options)).collect();
+        let options = Options {
+            language: Some(language.code().to_owned()),
+            origin: Some(Origin { file: "lamp.od.yaml".to_owned(), checksum: "CBF43926".to_owned() }),
+            since: Some(since()),
+            ..Options::default()
+        };
+        let mut contexts: Vec<_> = systems.iter().map(|one| context(&one.system, &options)).collect();
+        let gathered = Options { gaps: Gaps::Gathered, ..options };
+        contexts.insert(0, context(&systems[0].system, &gathered));
         let mut missing: BTreeMap<&'static str, &str> =
             contexts.iter().flat_map(|context| context.words.clone()).collect();
         // The last are small; what they show need not be looked for in the others.
@@ -234,8 +270,11 @@ fn words_of(text: &str) -> impl Iterator<Item = &str> {
     words.filter(move |word| word.contains(char::is_lowercase) && word.len() > 1 && !is_number(word))
 }
 
-/// Units and signs of HTML, which are the same in every language.
-const TERMS: [&str; 5] = ["kbit", "amp", "gt", "lt", "quot"];
+/// Units, signs of HTML, keys, names, access types and data types, which are the same in every language.
+const TERMS: [&str; 15] = [
+    "kbit", "amp", "gt", "lt", "quot", "odgen", "eds", "Enter", "Esc", "ro", "wo", "rwr", "rww", "const",
+    "unsigned",
+];
 
 #[test]
 fn every_fixed_text_is_in_the_language_files() {
@@ -245,6 +284,8 @@ fn every_fixed_text_is_in_the_language_files() {
         let mut known: BTreeSet<&str> = words_of(&texts).chain(TERMS).collect();
         // `unknown` where the specification names none.
         known.extend(words_of(&system.vendor.name));
+        // What languages call themselves.
+        known.extend(Language::ALL.iter().map(|language| language.text("language", "name")));
         for (_, object, entry) in system.devices.iter().flat_map(Dictionary::entries) {
             let about = entry.about.iter().map(|(_, text)| text);
             known.extend(about.chain([&*object.name, &*entry.name]).flat_map(words_of));
@@ -252,7 +293,10 @@ fn every_fixed_text_is_in_the_language_files() {
         let words = Some(Language::new("xx", || &BRACKETED));
         let context = context(&system, &Options { words, errata: true, ..Options::default() });
         for format in [Format::Markdown, Format::Html, Format::Print] {
-            for page in Templates::new(Some(format), &[]).unwrap().print(&context).unwrap() {
+            let templates = Templates::new(Some(format), &[]).unwrap();
+            let portal = Portal::new(&context, vec![Document::of("a", &context)]);
+            let start_page = templates.print_portal(&portal).unwrap();
+            for page in templates.print(&context).unwrap().into_iter().chain(start_page) {
                 for line in outside_brackets(&shown(&page.text)).lines() {
                     // A table without number and title is called by its anchor.
                     let called = line.split(' ').filter(|part| !part.contains("section-"));

@@ -12,6 +12,9 @@ macro_rules! codes {
         impl AbortCode {
             $($(#[$about])* pub const $name: Self = Self($code);)+
 
+            /// All codes that the standard defines, ascending.
+            pub const ALL: &'static [Self] = &[$(Self::$name,)+];
+
             /// What the code means, in a few words; `reserved` for one that the standard does not define.
             pub const fn text(self) -> &'static str {
                 match self { $(Self::$name => $text,)+ _ => "reserved" }

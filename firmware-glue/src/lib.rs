@@ -149,7 +149,7 @@ pub use value::text::{NoFit, Utf16};
 pub use value::time::Time;
 pub use value::{image, named, quantity, text};
 
-/// What the README shows compiles.
-#[cfg(doctest)]
+/// What the README shows compiles, with the features that it needs.
+#[cfg(all(doctest, feature = "embedded-can", feature = "storage"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -5647,7 +5647,7 @@ pub mod machines {
 /// Error codes, as emergency messages, `1003h` and `603Fh` carry them.
 /// What holds for every error:
 /// - Shown by: Bit 3 von 6041h; der Code in der Emergency-Nachricht
-/// - Reaction: Wie mit 605Eh gewählt; so will es CiA 402, und so ist es hier für jeden Fehler angenommen.
+/// - Reaction: Wie mit 605Eh gewählt.
 /// - Reset by: Bit 7 von 6040h von 0 auf 1, wenn kein Fehler mehr anliegt
 #[allow(dead_code, unreachable_pub)]
 pub mod errors {

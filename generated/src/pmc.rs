@@ -1956,7 +1956,7 @@ impl Pmc {
 
     /// `6865h` difference error window: How far motor and blade encoder may differ. Above it for longer than 6866h is the error 8620h.
     ///
-    /// **Warning:** The default 0 may mean no monitoring, or an error at once. Try it out before relying on it.
+    /// **Warning:** Test this supervision before relying on it.
     ///
     /// UNSIGNED32, rw, in PU, default 0 PU, stored with the application parameters.
     #[inline]
@@ -5982,7 +5982,7 @@ pub mod types {
     pub struct Statusword(pub u16);
 
     impl Statusword {
-        /// Bit 0, ready to switch on: The output stage may be switched on.
+        /// Bit 0, ready to switch on: The device is ready to be switched on.
         #[inline]
         pub const fn ready_to_switch_on(self) -> bool {
             self.0 & 1 != 0
@@ -6700,7 +6700,7 @@ pub mod machines {
         Quickstop,
         /// Disable operation: The axis stops and stays switched on. Transitions 5.
         DisableOperation,
-        /// Enable operation: The axis may be moved, halt is set. Transitions 4, 16.
+        /// Enable operation: The axis can be moved, halt is set. Transitions 4, 16.
         EnableOperation,
         /// Fault reset: Resets an error that is no longer present. Transitions 15.
         FaultReset,
@@ -8580,7 +8580,7 @@ pub mod constraints {
                         ))
     }
 
-    /// motor encoder factors not zero: The conversion divides by these entries or loses every position with them at 0. Implied; the device may not refuse 0.
+    /// motor encoder factors not zero: The conversion divides by these entries or loses every position with them at 0. Implied; the device may accept 0.
     ///
     /// `0x608F.1 > 0 and 0x608F.2 > 0 and 0x6091.1 > 0 and 0x6091.2 > 0 and 0x6092.1 > 0 and 0x6092.2 > 0`.
     pub fn motor_encoder_factors_not_zero(dictionary: &super::Pmc) -> bool {
@@ -8592,7 +8592,7 @@ pub mod constraints {
             && i64::from(super::glue::get_u32(&dictionary.0, 380)) > 0
     }
 
-    /// additional encoder factors not zero: The conversion divides by these entries or loses every position with them at 0. Implied; the device may not refuse 0.
+    /// additional encoder factors not zero: The conversion divides by these entries or loses every position with them at 0. Implied; the device may accept 0.
     ///
     /// `0x688F.1 > 0 and 0x688F.2 > 0 and 0x6891.1 > 0 and 0x6891.2 > 0 and 0x6892.1 > 0 and 0x6892.2 > 0`.
     pub fn additional_encoder_factors_not_zero(dictionary: &super::Pmc) -> bool {

@@ -6,7 +6,7 @@ use self::firmware::generated_for_layout_1 as glue; // An error here? Generate t
 
 /// Object dictionary of the Pitch Management Module: 688 bytes of values, 97 objects, 299 entries.
 ///
-/// Supplies the PMC with the DC link voltage, manages the battery, boosts its voltage to link level when the mains fail, and contains the brake chopper and temperature controllers. Its PDOs are assumed, all switched off.
+/// Supplies the PMC with the DC link voltage, manages the battery, boosts its voltage to link level when the mains fail, and contains the brake chopper and temperature controllers.
 #[allow(unreachable_pub)]
 #[derive(Debug, Clone)]
 #[repr(C, align(4))]
@@ -1562,7 +1562,7 @@ impl Pmm {
         records::DigitalOutputs(self)
     }
 
-    /// `30FFh` signaling outputs: Outputs that show a fault or a warning with 24 V; the outputs of several units may be wired in parallel.
+    /// `30FFh` signaling outputs: Outputs that show a fault or a warning with 24 V, so that outputs can be wired in parallel (wired or).
     #[inline]
     pub const fn signaling_outputs(&self) -> records::SignalingOutputs<&Self> {
         records::SignalingOutputs(self)
@@ -3645,7 +3645,7 @@ pub mod records {
         }
     }
 
-    /// `30FFh` signaling outputs: Outputs that show a fault or a warning with 24 V; the outputs of several units may be wired in parallel.
+    /// `30FFh` signaling outputs: Outputs that show a fault or a warning with 24 V, so that outputs can be wired in parallel (wired or).
     #[derive(Debug)]
     pub struct SignalingOutputs<D>(pub(super) D);
 
@@ -8122,7 +8122,7 @@ pub mod constraints {
             < i64::from(super::glue::get_u16(&dictionary.0, 330)) * 1000
     }
 
-    /// charging voltage fits the battery: Best is the maximum bloc voltage times the number of blocs. More is dangerous for the cells and is refused; less is safe and allowed, as whole volts cannot meet every product and a lower voltage spares the cells. It has to stay above the nominal voltage, or the battery would never hold the charge for an emergency drive.
+    /// charging voltage fits the battery: The charging voltage should be the maximum bloc voltage times the number of blocs. More overcharges the cells. A voltage down to the nominal one is not reported here, as whole volts cannot meet every product; at or below that the battery would never hold the charge for an emergency drive.
     ///
     /// `0x3020.4 * 0x3020.5 < 0x30F1.4 <= 0x3020.4 * 0x3020.6`.
     pub fn charging_voltage_fits_the_battery(dictionary: &super::Pmm) -> bool {

@@ -9,9 +9,7 @@ use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::file_name;
 use od_spec::source::{FileId, SourceMap};
 use od_spec::xdd::Disabled;
-use od_spec::{
-    Compiled, Loader, Strictness, add_source, compile_as, compile_with_modules, may_be_specification, part_of,
-};
+use od_spec::{Compiled, Loader, add_source, compile, compile_with_modules, may_be_specification, part_of};
 
 /// A little more than the compiler accepts, so that larger files are refused without being read whole.
 const READ_LIMIT: u64 = (64 << 20) + 1;
@@ -40,7 +38,10 @@ impl Loader for FileLoader {
 
 /// Compiles the specification, EDS or DCF in a file. The file's own reading errors are diagnostics, too.
 pub fn compile_file(path: &Path, sources: &mut SourceMap, loader: &mut FileLoader) -> Compiled {
-    compile_file_as(Strictness::Foreign, path, sources, loader)
+    match opened(path, sources, loader) {
+        Ok(root) => compile(sources, root, loader),
+        Err(diagnostic) => refused(*diagnostic),
+    }
 }
 
 /// [`compile_file`], with these modules plugged into the bus coupler that an EDS describes.
@@ -56,37 +57,30 @@ pub fn compile_file_with_modules(
     }
 }
 
-/// [`compile_file`], with an EDS or DCF held to the standard or only read.
-pub fn compile_file_as(
-    strictness: Strictness,
+/// Adds a file that is compiled.
+///
+/// # Errors
+/// It cannot be read, or is not a text.
+pub fn opened(
     path: &Path,
     sources: &mut SourceMap,
     loader: &mut FileLoader,
-) -> Compiled {
-    match opened(path, sources, loader) {
-        Ok(root) => compile_as(strictness, sources, root, loader),
-        Err(diagnostic) => refused(*diagnostic),
-    }
-}
-
-/// A file that is compiled.
-fn opened(path: &Path, sources: &mut SourceMap, loader: &mut FileLoader) -> Result<FileId, Box<Diagnostic>> {
+) -> Result<FileId, Box<Diagnostic>> {
     let help = "check the path; what is read are specifications (`*.od.yaml`), EDS and DCF files";
     let root = open(path, help, sources)?;
     loader.read.push(path.to_owned());
     Ok(root)
 }
 
-/// [`compile_file_as`], of bytes that were read already: the name replaces the path.
-pub fn compile_bytes_as(
-    strictness: Strictness,
+/// [`compile_file`], of bytes that were read already: the name replaces the path.
+pub fn compile_bytes(
     name: &str,
     bytes: Vec<u8>,
     sources: &mut SourceMap,
     loader: &mut FileLoader,
 ) -> Compiled {
     match add_source(sources, name, bytes) {
-        Ok(root) => compile_as(strictness, sources, root, loader),
+        Ok(root) => compile(sources, root, loader),
         Err(diagnostic) => refused(*diagnostic),
     }
 }

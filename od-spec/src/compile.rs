@@ -119,7 +119,7 @@ pub(crate) fn is_known(file: &SourceFile) -> bool {
 fn no_specification(file: &SourceFile, whole: Span) -> Option<Diagnostic> {
     let text = file.text();
     let (what, key, help) = if is_parameter_file(text) {
-        let help = "name it after the specification: `odgen dcf SPEC --params FILE`, with `--explain` to check it without writing anything";
+        let help = "`odgen check FILE` checks it if `spec:` names its specification, `odgen dcf SPEC --params FILE` makes the DCF";
         ("a parameter file", keys::PARAMETERS_VERSION, help)
     } else if is_plant(text) {
         let help = "`odgen plant check FILE` checks it, `odgen plant build FILE` makes its files";

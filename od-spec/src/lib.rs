@@ -46,6 +46,7 @@ mod check;
 mod commissioning;
 mod compile;
 mod decode;
+mod describing;
 pub mod diag;
 pub mod eds;
 mod files;
@@ -91,8 +92,8 @@ pub use library::{Feature, Library, LibraryObject, library, library_in};
 pub use node_of_file::NodeOfFile;
 pub use notation::{expr, name_pattern, scalar};
 pub use parameters::{
-    Assigned, Assignment, Layer, Origin, ParameterFile, SettingDecl, SettingNames, assign, assign_layers,
-    is_parameter_file, parameter_file, settings, settings_of_map,
+    Assigned, Assignment, Layer, OnDevice, Origin, ParameterFile, SettingDecl, SettingNames, assign,
+    assign_layers, is_parameter_file, on_device, parameter_file, settings, settings_of_map,
 };
 pub use parts::part_of;
 pub use text::{ascii, encoding, file_name, markdown, visible};

@@ -63,10 +63,10 @@ check(await (async () => {
 })(), `index.html: its language is not ${context.language}`);
 const rowsOf = (page, selector) => page.$$eval(selector, (tables) => tables.map((table) => ({
   anchor: table.closest(".table")?.id ?? "",
-  columns: [...table.querySelectorAll("thead th:not(.tool), thead td")].map((cell) => cell.textContent),
-  rows: [...table.querySelectorAll("tbody tr")].map((row) => [...row.querySelectorAll("td:not(.tool)")].map((cell) => {
+  columns: [...table.querySelectorAll("thead th, thead td")].map((cell) => cell.textContent),
+  rows: [...table.querySelectorAll("tbody tr")].map((row) => [...row.querySelectorAll("td")].map((cell) => {
     const copy = cell.cloneNode(true);
-    for (const mark of copy.querySelectorAll(".mark, .language")) mark.remove();
+    for (const mark of copy.querySelectorAll(".mark")) mark.remove();
     for (const line of copy.querySelectorAll("br")) line.replaceWith("\n");
     return copy.textContent;
   })),
@@ -76,7 +76,7 @@ const words = (cell) => clean(cell.text);
 // The words and numbers that the tables of a device have in each language; stated here once more, so that a wrong one is seen.
 const language = context.language;
 const say = {
-  en: { sub: "Sub-Index", index: "Index", name: "Name", type: "Type", access: "Attr", map: "Map", about: "Description", unit: "Unit",
+  en: { sub: "Sub-index", index: "Index", name: "Name", type: "Type", access: "Attr", map: "Map", about: "Description", unit: "Unit",
     stored: "Stored", default: "Default", point: ".",
     kept: { no: "", communication: "communication", application: "application", manufacturer: "manufacturer", remanent: "by itself" } },
   de: { sub: "Subindex", index: "Index", name: "Name", type: "Typ", access: "Zugriff", map: "Map", about: "Beschreibung", unit: "Einheit",
@@ -87,7 +87,7 @@ const inLanguage = (number) => String(number).replace(".", say.point);
 const numberIn = (text) => (say.point === "," && text?.includes(".") ? NaN : Number(text?.replace(say.point, ".")));
 // A text in the language of the page, or else in the default language of the specification.
 const fallback = dump.languages[0];
-const told = (text) => clean(text[language] ?? text[fallback] ?? "");
+const told = (text) => clean(text[language] ?? text[fallback] ?? "").replaceAll("->", "→");
 
 const accessCell = (entry) => (entry.locked ? (entry.access === "wo" ? "(w)" : "r(w)") : entry.access);
 const mapCell = { none: "N", receive: "Y (R)", transmit: "Y (T)", both: "Y (RT)" };
@@ -99,7 +99,7 @@ for (const device of dump.devices) {
   for (const [at, object] of device.objects.entries()) {
     check(clean(cards[at].heading).includes(clean(object.name)), `${object.index}: heading ${cards[at].heading}`);
   }
-  const tables = await rowsOf(page, "article.object > table.grid");
+  const tables = await rowsOf(page, "article.object > .scroll > table.grid");
   same(tables.length, device.objects.length, `${device.key}: a detail table per object`);
   for (const [at, object] of device.objects.entries()) {
     const { columns, rows } = tables[at];
@@ -116,7 +116,8 @@ for (const device of dump.devices) {
       check(clean(cell(say.about)).startsWith(told(entry.about)), `${place} description`);
       const unit = dump.units.find((one) => one.name === entry.unit);
       const [upper, lower] = unit?.scale ?? [1, 1];
-      const step = upper / lower === 1 ? unit?.symbol : `${Number.isInteger(1e6 * upper / lower) ? inLanguage(upper / lower) : `${upper}/${lower}`} ${unit?.symbol}`;
+      const space = unit?.symbol === "°" ? "" : " ";
+      const step = upper / lower === 1 ? unit?.symbol : `${Number.isInteger(1e6 * upper / lower) ? inLanguage(upper / lower) : `${upper}/${lower}`}${space}${unit?.symbol}`;
       same(cell(say.unit), unit ? step : "", `${place} unit`);
       same(cell(say.stored), say.kept[entry.stored], `${place} stored`);
       if (entry.default === null) same(cell(say.default), "", `${place} default`);
@@ -133,11 +134,8 @@ for (const device of dump.devices) {
     }
   }
 
-  // Copying, keyboard, deep links. A page that is still being read answers later.
+  // Keyboard, deep links. A page that is still being read answers later.
   await becomes(page, () => performance.getEntriesByName("search-ready").length > 0);
-  const first = page.locator("[data-copy]").first();
-  await first.click();
-  same(await page.evaluate(() => navigator.clipboard.readText()), await first.getAttribute("data-copy"), `${device.key}: copied`);
   await page.locator("body").press("/");
   same(await page.evaluate(() => document.activeElement.id), "ui_search", `${device.key}: / goes to the search`);
   const structured = device.objects.find((object) => object.entries.length > 2);
@@ -235,7 +233,7 @@ for (const device of dump.devices) {
 // ---------------------------------------------------------------- the system's page
 {
   const page = await open("index.html");
-  const expected = [...(context.warnings ? [context.warnings] : []), ...context.chapters.flatMap((chapter) => chapter.sections.flatMap((section) => section.tables)),
+  const expected = [{ ...context.notation, anchor: "" }, ...(context.warnings ? [context.warnings] : []), ...context.chapters.flatMap((chapter) => chapter.sections.flatMap((section) => section.tables)),
     ...context.appendices.flatMap((appendix) => appendix.tables)];
   const grids = expected.flatMap((table) => table.grids.map((grid) => ({ anchor: table.anchor, grid })));
   const found = await rowsOf(page, "table.grid");
@@ -332,15 +330,57 @@ for (const name of ["index.html", ...dump.devices.map((device) => `${device.key}
     continue;
   }
   const pressed = () => page.getAttribute("#ui_errata", "aria-pressed");
+  // While they are hidden, their number is where they will be; each mark says what it is about.
+  const hints = () => page.$$eval(".hint", (all) => all.filter((one) => one.checkVisibility()).map((one) => [one.parentElement.id, Number(one.textContent.match(/\d+$/)[0])]));
+  const counted = await page.evaluate(() => {
+    const numbersIn = (box) => new Set([...box.querySelectorAll(".mark, .compared tbody td:first-child a")].map((mark) => mark.textContent.match(/^E\d+/)[0]));
+    const boxes = [...document.querySelectorAll("article.object, .table")].filter((box) => !box.matches("article .table"));
+    return boxes.map((box) => [box.id, numbersIn(box).size]).filter(([, count]) => count > 0);
+  });
+  same(await hints(), counted, `${name}: numbers of hidden errata`);
+  const unsaid = await page.$$eval(".mark", (all) => all.filter((mark) => !/^\S+ \d+: ./.test(mark.title)).map((mark) => mark.textContent));
+  same(unsaid, [], `${name}: marks that do not say which fact is wrong`);
   same([await marks(), await pressed()], [0, "false"], `${name}: errata before they are asked for`);
-  await page.click("#ui_errata");
-  same([await marks(), await pressed()], [all, "true"], `${name}: errata when asked for`);
+  await page.click(counted.length > 0 ? ".hint" : "#ui_errata");
+  same([await marks(), await pressed(), await hints()], [all, "true", []], `${name}: errata when asked for`);
   await page.reload();
   same([await marks(), await pressed()], [all, "true"], `${name}: errata after a reload`);
   await page.click("#ui_errata");
   same([await marks(), await pressed()], [0, "false"], `${name}: errata when not asked for any more`);
   await page.evaluate(() => localStorage.clear());
   await page.close();
+}
+
+// ---------------------------------------------------------------- keys, filters, and a page without its script
+for (const name of ["index.html", ...dump.devices.map((device) => `${device.key}.html`)]) {
+  const page = await open(name);
+  await page.locator("body").press("?");
+  check(await page.isVisible("#ui_keys"), `${name}: ? does not show the keys`);
+  await page.keyboard.press("Escape");
+  check(!await page.isVisible("#ui_keys"), `${name}: Escape does not close the keys`);
+  await page.click("#ui_help");
+  check(await page.isVisible("#ui_keys"), `${name}: the button does not show the keys`);
+  await page.click("#ui_keys button");
+  await page.fill("#ui_search", "a?");
+  check(!await page.isVisible("#ui_keys"), `${name}: a question shows the keys`);
+  await page.press("#ui_search", "Escape");
+  // On a phone a button opens the filters.
+  if (name !== "index.html") {
+    check(await page.isVisible("select") && !await page.isVisible("#ui_filters"), `${name}: filters on a screen`);
+    await page.setViewportSize({ width: 390, height: 800 });
+    check(!await page.isVisible("select") && await page.isVisible("#ui_filters"), `${name}: filters on a phone`);
+    const word = await page.textContent("#ui_filters");
+    await page.click("#ui_filters");
+    await page.selectOption("select[data-filter=access]", { index: 1 });
+    same([await page.textContent("#ui_filters"), await page.getAttribute("#ui_filters", "aria-expanded")], [`${word} (1)`, "true"], `${name}: filters in use`);
+  }
+  await page.close();
+
+  const plain = await (await browser.newContext({ javaScriptEnabled: false })).newPage();
+  await plain.goto(pathToFileURL(join(docs, name)).href);
+  same([await plain.isVisible("#ui_search"), await plain.isVisible("h1"), await plain.isVisible(".hint")], [false, true, false], `${name}: without the script`);
+  check((await plain.textContent(".made")).includes("odgen"), `${name}: the foot does not say what made it`);
+  await plain.close();
 }
 
 // ---------------------------------------------------------------- pictures: every name is whole and inside
@@ -536,47 +576,17 @@ for (const name of names) {
   await page.evaluate(() => localStorage.clear());
   await page.close();
 
-  // At no width a table is wider than its card, or a column narrower than its longest word.
-  const tablet = await open(name);
-  await tablet.addStyleTag({ content: "* { content-visibility: visible !important }" });
-  for (const width of [390, 600, 601, 800, 1000, 1200, 1201, 1400]) {
-    await tablet.setViewportSize({ width, height: 800 });
-    if (width <= 600) await tablet.waitForFunction(areStacked);
-    await tablet.evaluate(() => new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(done)); }));
-    const { wide, broken, unnamed } = await tablet.evaluate(() => {
-      const place = (one) => `${one.closest("[id]")?.id}: ${one.textContent.slice(0, 40)}`;
-      const wide = [], broken = [], unnamed = [], pen = document.createElement("canvas").getContext("2d");
-      const longest = new Map();
-      for (const table of document.querySelectorAll("main table")) {
-        const box = table.closest(".object, .part, .intro"), { paddingLeft, paddingRight } = getComputedStyle(box);
-        if (table.getBoundingClientRect().width > box.clientWidth - parseFloat(paddingLeft) - parseFloat(paddingRight) + 1) wide.push(`${place(table)} in ${box.id}`);
-        if (!table.matches(".folded") || innerWidth <= 600) continue;
-        const titles = [...table.tHead.rows[0].cells].map((cell) => cell.textContent);
-        for (const cell of table.querySelectorAll("tbody td")) {
-          const style = getComputedStyle(cell), title = getComputedStyle(cell, "::before").content.split(" / ")[0];
-          if (cell.textContent && title !== JSON.stringify(titles[cell.cellIndex])) unnamed.push(place(cell));
-          if (!cell.role || cell.matches(".tool")) continue;
-          pen.font = `${style.fontStyle} ${style.fontSize} ${style.fontFamily}`;
-          for (const word of cell.innerText.split(/[\s\u00ad/-]+/)) {
-            if (!longest.has(pen.font + word)) longest.set(pen.font + word, pen.measureText(word).width);
-            if (longest.get(pen.font + word) > cell.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) + 1) broken.push(`${place(cell)}: ${word}`);
-          }
-        }
-      }
-      for (const card of document.querySelectorAll(".object, .part")) if (card.scrollWidth > card.clientWidth + 1) wide.push(`card ${card.id}`);
-      return { wide, broken, unnamed };
-    });
-    same(wide, [], `${name} (${width} px): tables wider than their card`);
-    same(broken, [], `${name} (${width} px): words wider than their column`);
-    same(unnamed, [], `${name} (${width} px): cells without the title of their column`);
-  }
-  await tablet.close();
-
   // On a phone the cells of a row are below one another, each after the title of its column, and only pictures are scrolled.
   const phone = await open(name);
   await phone.setViewportSize({ width: 390, height: 800 });
   await phone.waitForFunction(areStacked);
   await phone.addStyleTag({ content: "* { content-visibility: visible !important }" });
+  // What is folded or hidden is looked at, too.
+  await phone.evaluate(() => {
+    document.documentElement.classList.remove("unmarked");
+    for (const one of document.querySelectorAll("main details")) one.open = true;
+  });
+  await frames(phone, 3);
   const { unnamed, unsaid, narrow, sideways, shrunk } = await phone.evaluate(() => {
     const place = (one) => `${one.closest("[id]")?.id} ${one.textContent.slice(0, 40)}`;
     const unnamed = [], unsaid = [], narrow = [], sideways = [];
@@ -591,8 +601,10 @@ for (const name of names) {
       for (const cell of table.querySelectorAll("tbody td")) {
         if (!cell.checkVisibility()) { if (cell.textContent) unnamed.push(place(cell)); continue; }
         const { width, left, right } = cell.getBoundingClientRect(), { paddingLeft, paddingRight } = getComputedStyle(cell);
-        // A table of two columns stays one.
-        const isOne = titles.length <= 2;
+        // A table of two columns stays one; what a row is called is in its first line.
+        const isOne = titles.length <= 2, isCalled = cell.matches("[data-called]");
+        if (isCalled && (right > innerWidth || left < 0)) sideways.push(place(cell));
+        if (isCalled) continue;
         if (!isOne && getComputedStyle(cell, "::before").content.split(" / ")[0] !== JSON.stringify(titles[cell.cellIndex])) unnamed.push(place(cell));
         if (width - (isOne ? 0 : parseFloat(paddingLeft) + parseFloat(paddingRight)) < 114) narrow.push(`${place(cell)}: ${width}`);
         if (left < 0 || right > innerWidth) sideways.push(place(cell));
@@ -601,7 +613,7 @@ for (const name of names) {
     for (const one of document.querySelectorAll("body, body *")) {
       if (one.scrollWidth <= one.clientWidth + 1 || one.clientWidth === 0 || one.closest("svg, thead, .unseen") || !one.checkVisibility()) continue;
       if (getComputedStyle(one).display === "inline") continue;
-      if (!(one.tabIndex === 0 && one.localName === "section" && one.ariaLabel)) sideways.push(`${one.localName}.${one.className} ${place(one)}`);
+      if (!(one.tabIndex === 0 && one.matches(".scrolls") && one.ariaLabel)) sideways.push(`${one.localName}.${one.className} ${place(one)}`);
     }
     return { unnamed, unsaid, narrow, sideways, shrunk };
   });
@@ -628,8 +640,8 @@ for (const name of names) {
     return width > 0 && (right > innerWidth + 1 || left < -1 || one.scrollWidth > one.clientWidth + 1);
   }).map((one) => `${one.closest("[id]")?.id}: ${Math.round(one.getBoundingClientRect().right)}`));
   same(wide, [], `${name}: tables wider than the paper`);
-  // The marks of errata are put away there.
-  const cells = await paper.$$eval("td:not(.tool)", (all) => all.map((one) => {
+  // Errata are put away there.
+  const cells = await paper.$$eval("td", (all) => all.filter((one) => !one.closest(".compared")).map((one) => {
     const copy = one.cloneNode(true);
     for (const mark of copy.querySelectorAll(".mark")) mark.remove();
     return copy.textContent;

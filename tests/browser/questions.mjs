@@ -128,6 +128,25 @@ for (const [name, { questions, links }] of Object.entries(table)) {
   }));
 }
 
+// What readers ask in their own words is the first result, or (`near`) among the first three. Enter leads some of them to a place that the first screen shows.
+const FIRST_OF = isSample ? 16 : 4;
+for (const [name, { sentences = [], near = [] }] of Object.entries(table)) {
+  const page = await open(pathToFileURL(join(docs, name)).href, 1400);
+  for (const [at, [question, expected]] of [...sentences, ...near].entries()) {
+    await page.fill("#ui_search", question);
+    await answered(page);
+    const found = await page.$$eval("#ui_results:not(.off) ol a", (links) => links.slice(0, 3).map((link) => decodeURIComponent(link.getAttribute("href"))));
+    const place = found.findIndex((href) => href === `#${expected}` || href.endsWith(`.html#${expected}`)), most = at < sentences.length ? 0 : 2;
+    check(place >= 0 && place <= most, `${name}: ${question} finds ${found.join(", ")}, not #${expected}`);
+    asked += 1;
+    if (at % FIRST_OF !== 0 || found[0] !== `#${expected}`) continue;
+    await page.press("#ui_search", "Enter");
+    const inside = await page.locator("#ui_results ol a").first().evaluate((link) => link.matches(".inside"));
+    if (!inside) await lands(page, expected, `${name}: ${question}, Enter`);
+  }
+  await page.close();
+}
+
 // A page of which a busy machine makes something late, as it is on a fast one: the browser reports late what it has laid out, so that tables fold after a link has
 // landed; it goes late where the reader was; and what an address asks for is found only after its target was shown.
 const late = await browser.newContext();

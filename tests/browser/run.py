@@ -4,10 +4,11 @@
     run.py [--sample] DOCS...
     run.py --install    only installs what npm brings
 
-DOCS are directories with HTML pages, `dump.json` and `context.json` (without these two, only the questions of
-`questions.json` are asked), or with `manual.adoc`, or with `hostile.json` and pages that hold its texts. With --sample, axe
+DOCS are directories with HTML pages, `workbench.json` (what their tools have to show), `dump.json` and `context.json`
+(without these two, only the tools are used and the questions of `questions.json` asked), or with documents in two languages
+and a start page for them, or with `manual.adoc`, or with `hostile.json` and pages that hold its texts. With --sample, axe
 looks at one of each kind of element, and questions and links take turns at the widths of a window. Every HTML page is held
-against the HTML standard, and the search against how much it does at once. What npm brings is installed
+against the HTML standard, and the search against how much it does at once and what it finds. What npm brings is installed
 below target/browser. Needs Node, npm, Chromium (CHROMIUM names another program) and pdftotext of poppler-utils. Exit code
 0: the documents are as they must be; 1: they are not; 3: a program is missing or npm could not install, nothing was checked.
 """
@@ -26,8 +27,12 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 CACHE = HERE.parent.parent / "target" / "browser"
 FILES = ["package.json", "package-lock.json", ".npmrc"]
-SCRIPTS = ["browser.mjs", "check.mjs", "questions.mjs", "questions.json", "hostile.mjs", "asciidoc.mjs", "validate.mjs", "slices.mjs"]
-SEARCH = HERE.parent.parent / "docs-gen" / "templates" / "html" / "_search.js"
+SCRIPTS = [
+    *["browser.mjs", "check.mjs", "workbench.mjs", "questions.mjs", "questions.json", "widths.mjs", "portal.mjs", "hostile.mjs"],
+    *["asciidoc.mjs", "validate.mjs", "slices.mjs", "words.mjs"],
+]
+TEMPLATES = HERE.parent.parent / "docs-gen" / "templates" / "html"
+SEARCH = [str(TEMPLATES / name) for name in ["_words.js", "_search.js"]]
 # Two cores are what a machine has at least.
 AT_ONCE = 2
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "chrome"]
@@ -92,15 +97,22 @@ def main() -> int:
     for docs in directories:
         if (docs / "manual.adoc").exists():
             work.append((docs.name, [node, str(folder / "asciidoc.mjs"), str(docs / "manual.adoc")]))
+        elif (docs / "index.html").exists() and not (docs / "dump.json").exists() and any(docs.glob("*/*/index.html")):
+            work.append((docs.name, [node, str(folder / "portal.mjs"), str(docs), browser]))
         elif (docs / "hostile.json").exists():
             work.append((docs.name, [node, str(folder / "hostile.mjs"), str(docs), browser]))
         else:
+            if (docs / "workbench.json").exists():
+                work.append((f"{docs.name}: tools", [node, str(folder / "workbench.mjs"), str(docs), browser, amount]))
+            if any(docs.rglob("*.html")) and not docs.name.endswith("-print"):
+                work.append((f"{docs.name}: widths", [node, str(folder / "widths.mjs"), str(docs), browser, amount]))
             if docs.name in asked:
                 work.append((f"{docs.name}: questions", [node, str(folder / "questions.mjs"), str(docs), browser, amount]))
             if (docs / "dump.json").exists():
                 files = [docs, docs / "dump.json", docs / "context.json", CACHE / "seen" / docs.name]
                 work.append((docs.name, [node, str(folder / "check.mjs"), *map(str, files), browser, amount]))
-    work.append(("slices of the search", [node, str(folder / "slices.mjs"), str(SEARCH)]))
+    work.append(("slices of the search", [node, str(folder / "slices.mjs"), *SEARCH]))
+    work.append(("words of the search", [node, str(folder / "words.mjs"), *SEARCH]))
     if pages:
         work.append(("all pages", [node, str(folder / "validate.mjs"), *pages]))
     failed = 0

@@ -1,12 +1,13 @@
 // Holds a search that may be interrupted against how much it does at once: the places of the index that are looked at between two interruptions are counted, as
 // time depends on the machine.
 //
-//   node slices.mjs _search.js
+//   node slices.mjs _words.js _search.js
 import { readFileSync } from "node:fs";
 
 // Places of one card, and how many of all may be looked at in one go.
 const PLACES = 20000, MOST = 1024;
-const WordIndex = new Function(`${readFileSync(process.argv[2], "utf8")}\nreturn WordIndex;`)();
+const scripts = process.argv.slice(2, 4).map((file) => readFileSync(file, "utf8")).join("\n");
+const WordIndex = new Function(`${scripts}\nreturn WordIndex;`)();
 
 const failures = [];
 // All in one card, as a list of ten thousand rows is; and each in a card of its own.

@@ -2,7 +2,9 @@
 "use strict";
 
 const assert = require("assert");
+const fs = require("fs");
 const Module = require("module");
+const os = require("os");
 const path = require("path");
 
 const load = Module._load;
@@ -10,7 +12,7 @@ const FOLDER = path.resolve(__dirname, "../../od-gen/lsp/vscode");
 
 /** An editor with documents, a program and a server whose first starts fail; what the extension did. */
 function session(documents, program, failures = 0) {
-  const seen = { messages: [], started: 0, commands: {}, opened: undefined };
+  const seen = { messages: [], started: 0, commands: {}, opened: undefined, texts: {}, pages: [], picks: [], said: [] };
   class LanguageClient {
     constructor(id, name, server, options) {
       seen.server = server;
@@ -38,15 +40,32 @@ function session(documents, program, failures = 0) {
     Location: class {},
     Position: class {},
     Range: class {},
-    Uri: { parse: (text) => text, file: (text) => text },
+    Uri: { parse: (text) => text, file: (text) => text, from: ({ scheme, path }) => `${scheme}:${path}` },
+    EventEmitter: class {
+      event = event;
+      fire() {}
+    },
     ViewColumn: { Beside: 2 },
     window: {
-      activeTextEditor: undefined,
+      activeTextEditor: documents.length ? { document: documents[0] } : undefined,
+      createWebviewPanel: (_, title) => {
+        const panel = { title, webview: { html: "" } };
+        seen.pages.push(panel);
+        return panel;
+      },
+      showOpenDialog: async () => [{ fsPath: "/earlier.eds" }],
+      showQuickPick: async (names) => {
+        seen.picks.push(names);
+        return names[0];
+      },
+      showTextDocument: async () => undefined,
       onDidChangeActiveTextEditor: event,
       showErrorMessage: async (text, ...choices) => {
         seen.messages.push({ text, choices });
       },
-      showInformationMessage: async () => undefined,
+      showInformationMessage: async (text) => {
+        seen.said.push(text);
+      },
     },
     workspace: {
       textDocuments: documents,
@@ -56,6 +75,13 @@ function session(documents, program, failures = 0) {
         return { dispose() {} };
       },
       onDidSaveTextDocument: event,
+      registerTextDocumentContentProvider: (_, provider) => {
+        seen.provider = provider;
+        return { dispose() {} };
+      },
+      openTextDocument: async (uri) => {
+        seen.texts[uri] = seen.provider.provideTextDocumentContent(uri);
+      },
       onDidChangeConfiguration: event,
     },
   };
@@ -71,14 +97,88 @@ function session(documents, program, failures = 0) {
   return { seen, started: extension.activate(context) };
 }
 
-const document = (languageId, fileName, text) => ({ languageId, fileName, getText: () => text });
+const document = (languageId, fileName, text) => ({
+  languageId,
+  fileName,
+  getText: () => text,
+  uri: { scheme: "file" },
+  save: async () => true,
+});
 const foreign = document("yaml", "compose.yaml", "services: {}\n");
 const plant = document("yaml", "farm.yaml", "# A farm\nod-plant: 1\n");
 
 // A program that runs and takes `--version`: this one.
 const node = process.execPath;
 
+/** A program that builds an EDS and the pages of a device, finds one change, and notes the folder that it builds into. */
+function builder(folder) {
+  const program = path.join(folder, "odgen");
+  fs.writeFileSync(
+    program,
+    `#!${process.execPath}
+const fs = require("fs");
+const path = require("path");
+const [command, ...rest] = process.argv.slice(2);
+if (command === "build" && rest.includes("--out")) {
+  const out = rest[rest.indexOf("--out") + 1];
+  fs.writeFileSync(${JSON.stringify(path.join(folder, "out"))}, out);
+  for (const name of ["eds/valve.eds", "docs/valve/index.html", "docs/valve/valve.html"]) {
+    fs.mkdirSync(path.join(out, path.dirname(name)), { recursive: true });
+    fs.writeFileSync(path.join(out, name), name);
+  }
+} else if (command === "build" && rest.includes("/broken.od.yaml")) {
+  console.error("warning[OD0001]: a warning\\n\\nerror[OD0608]: there is no unit");
+  process.exit(1);
+} else if (command === "build") {
+  console.log("  generated/valve.json\\n  2 files changed, 1 unchanged\\nto open:\\n  EDS  generated/eds/valve.eds");
+} else if (command === "diff") {
+  console.log("1 change");
+  process.exit(1);
+}
+`,
+    { mode: 0o755 },
+  );
+  return program;
+}
+
 const CASES = {
+  "previews and comparisons belong to no file, and leave none": async () => {
+    const folder = fs.mkdtempSync(path.join(os.tmpdir(), "odgen-test-"));
+    const spec = document("yaml", path.join(folder, "valve.od.yaml"), "od-spec: 1\n");
+    const { seen, started } = session([spec], builder(folder));
+    await started;
+    await seen.commands["odgen.previewEds"]();
+    const out = fs.readFileSync(path.join(folder, "out"), "utf8");
+    await seen.commands["odgen.diff"]();
+    await seen.commands["odgen.previewPage"]();
+    assert.deepStrictEqual(seen.messages, []);
+    assert.deepStrictEqual(seen.texts, {
+      "odgen-preview:/valve.eds": "eds/valve.eds",
+      "odgen-preview:/earlier.eds → valve.od.yaml.txt": "1 change\n",
+    });
+    // There is one page of the device: nothing is asked.
+    assert.deepStrictEqual(seen.picks, []);
+    assert.deepStrictEqual(
+      seen.pages.map((panel) => [panel.title, panel.webview.html]),
+      [["valve.html", "docs/valve/valve.html"]],
+    );
+    assert.ok(!fs.existsSync(out), `${out} is left`);
+    await seen.commands["odgen.build"]();
+    assert.deepStrictEqual(seen.said, ["2 files changed, 1 unchanged"]);
+    fs.rmSync(folder, { recursive: true });
+  },
+  "of what is wrong, an error is shown": async () => {
+    const folder = fs.mkdtempSync(path.join(os.tmpdir(), "odgen-test-"));
+    const spec = document("yaml", "/broken.od.yaml", "od-spec: 1\n");
+    const { seen, started } = session([spec], builder(folder));
+    await started;
+    await seen.commands["odgen.build"]();
+    assert.deepStrictEqual(
+      seen.messages.map((message) => message.text),
+      ["error[OD0608]: there is no unit"],
+    );
+    fs.rmSync(folder, { recursive: true });
+  },
   "foreign YAML starts nothing": async () => {
     const { seen, started } = session([foreign], node);
     await started;

@@ -20,6 +20,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "od-gen/lsp/vscode"
+# The project has no public address yet, to which links of the README could lead.
+NO_ADDRESS = ["--allow-missing-repository", "--no-rewrite-relative-links"]
 TOOLS = ["node@24", "@vscode/vsce@3", "esbuild@0.25"]
 FILES = [
     "package.json", "readme.md", "license.txt", "icon.png", "extension.js", "eds-configuration.json",
@@ -96,8 +98,7 @@ def main() -> int:
     program = "odgen.exe" if sys.platform == "win32" else "odgen"
     for platform_name in (None, target):
         package = args.out / f"odgen-{platform_name or 'any'}.vsix"
-        # The project has no public address yet.
-        command = [str(node), str(vsce), "package", "--no-dependencies", "--allow-missing-repository", "--out", str(package)]
+        command = [str(node), str(vsce), "package", "--no-dependencies", *NO_ADDRESS, "--out", str(package)]
         if platform_name:
             (folder / "bin").mkdir()
             shutil.copy(args.odgen, folder / "bin" / program)

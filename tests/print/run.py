@@ -227,16 +227,16 @@ class Manual:
         for row in self.context["warnings"]["grids"][0]["rows"]:
             places, warning = (cell["text"] for cell in row["cells"])
             for place in places.splitlines():
-                # After the place are leading dots and the page.
-                found = re.search(re.escape(squeezed(place)) + r"[.…]*(\d+)", overview)
-                self.check(found is not None, f"not in the overview of the warnings: {place}")
+                # After the place are leading dots and the page. An object may have several warnings, each with a place of its own.
+                found = re.findall(re.escape(squeezed(place)) + r"[.…]*(\d+)", overview)
+                self.check(bool(found), f"not in the overview of the warnings: {place}")
                 if found:
                     lines = [squeezed(line) for line in warning.splitlines()]
                     # Digits of the next place may follow those of the page.
-                    pages = [int(found[1][:digits]) for digits in range(1, len(found[1]) + 1)]
-                    pages = [page for page in pages if 0 < page <= len(self.raw)]
+                    pages = {int(number[:digits]) for number in found for digits in range(1, len(number) + 1)}
+                    pages = {page for page in pages if 0 < page <= len(self.raw)}
                     stands = any(all(line in self.raw[page - 1] for line in lines) for page in pages)
-                    self.check(stands, f"not on page {found[1]}: the warning of {place}")
+                    self.check(stands, f"not on pages {found}: the warning of {place}")
 
     def section(self, section: dict) -> None:
         for part in section["content"]:
@@ -252,11 +252,11 @@ class Manual:
         self.figures(table)
         for grid in grids:
             for row in grid["rows"]:
-                for cell in row["cells"]:
+                for cell in self.told(grid, row):
                     for part in cell["parts"]:
                         self.has(part["text"], f"a cell of {table['anchor']}")
         caption = squeezed(f"{self.context['words']['table']} {table['number']} {table['title']['text']}")
-        if table["number"] is None or not grids or not grids[0]["rows"]:
+        if table["number"] is None or not grids or not grids[0]["rows"] or self.is_drawn(grids[0]):
             return
         first = grids[0]
         pages = [page for page in self.raw if caption in page]
@@ -268,6 +268,21 @@ class Manual:
                 any(all(name in page.split(caption, 1)[1] for name in names) for page in pages),
                 f"parted from its picture: {caption}",
             )
+
+    @staticmethod
+    def is_drawn(grid: dict) -> bool:
+        """A block diagram or a sequence of events: below it is only what it does not say itself."""
+        return bool(grid["flow"] or grid["timing"])
+
+    def told(self, grid: dict, row: dict) -> list[dict]:
+        """The cells of a row that are printed."""
+        keys = [column["key"] for column in grid["columns"]]
+        cells = dict(zip(keys, row["cells"]))
+        if grid["timing"]:
+            return [cells["event"]] if cells["step"]["text"] else []
+        if grid["flow"]:
+            return [cells["block"], cells["does"]] if cells.get("does", {}).get("text") else []
+        return row["cells"]
 
     def figures(self, table: dict) -> None:
         """A picture is on one page with its caption, and all of its texts do."""

@@ -67,7 +67,11 @@ pub(crate) fn read(text: &str) -> Page {
                 page.tables.push(std::mem::take(&mut table));
             }
             Event::Start(Tag::TableCell) => cell.clear(),
-            Event::End(TagEnd::TableCell) => row.push(std::mem::take(&mut cell)),
+            // What is assumed is marked.
+            Event::End(TagEnd::TableCell) => {
+                let text = std::mem::take(&mut cell);
+                row.push(text.strip_suffix(" ?").map(str::to_owned).unwrap_or(text));
+            }
             Event::End(TagEnd::TableHead) => table.columns = std::mem::take(&mut row),
             Event::End(TagEnd::TableRow) => table.rows.push(std::mem::take(&mut row)),
             Event::Start(Tag::Paragraph) => paragraph.clear(),

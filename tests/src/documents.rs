@@ -34,7 +34,8 @@ pub fn context(spec: &str, language: &str) -> Result<&'static serde_json::Value,
     static SEEN: Memo<(String, String), serde_json::Value> = Memo::empty();
     SEEN.get((spec.to_owned(), language.to_owned()), || {
         let system = compile_clean(spec)?;
-        let context = docs::dump_context(&system, &docs::options(&system, &[], Some(language)));
+        let options = docs::options(&system, &[], Some(language));
+        let context = docs::dump_context(&system, &docs::Options { gaps: docs::Gaps::InPlace, ..options });
         Ok(serde_json::from_slice(&context)?)
     })
 }

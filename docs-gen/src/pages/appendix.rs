@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use od_spec::model::{Devices, Dictionary, Entry, EntryId, ErratumPlace, Role, Storage, SubIndex, Unit};
 
 use crate::language::Word;
+use crate::options::Gaps;
 use crate::source::Source;
 use crate::tables::Columns;
 use crate::tables::overview::among;
@@ -41,6 +42,14 @@ impl Source<'_> {
     /// All appendices that have something to show.
     pub(crate) fn appendices(&self) -> Vec<Appendix> {
         let mut list = self.device_appendices();
+        if self.gaps == Gaps::Gathered {
+            list.extend(self.shown([Part {
+                page: "questions",
+                title: Word::OpenQuestions,
+                intro: vec![Word::OpenQuestionsIntro],
+                tables: self.questions(),
+            }]));
+        }
         list.extend(self.shown([
             Part {
                 page: "errata",
@@ -92,6 +101,12 @@ impl Source<'_> {
                 tables: self.constraints(),
             },
             Part { page: "machines", title: Word::Machines, intro: Vec::new(), tables: self.machines() },
+            Part {
+                page: "changes",
+                title: Word::Changes,
+                intro: vec![Word::ChangesIntro],
+                tables: vec![self.changes()],
+            },
         ])
     }
 
@@ -114,16 +129,21 @@ impl Source<'_> {
     fn shown<const N: usize>(&self, parts: [Part; N]) -> Vec<Appendix> {
         parts
             .into_iter()
-            .map(|part| Appendix {
-                page: part.page,
-                letter: String::new(),
-                title: self.word(part.title).to_owned(),
-                intro: self.linked(&Devices::All, &self.sentences(&part.intro), ""),
-                tables: part
-                    .tables
-                    .into_iter()
-                    .filter(|table| table.grids.iter().any(|grid| !grid.rows.is_empty()))
-                    .collect(),
+            .map(|part| {
+                let mut appendix = Appendix {
+                    page: part.page,
+                    letter: String::new(),
+                    title: self.word(part.title).to_owned(),
+                    intro: self.linked(&Devices::All, &self.sentences(&part.intro), ""),
+                    tables: part
+                        .tables
+                        .into_iter()
+                        .filter(|table| table.grids.iter().any(|grid| !grid.rows.is_empty()))
+                        .collect(),
+                    untranslated: String::new(),
+                };
+                appendix.untranslated = self.untranslated(appendix.foreign());
+                appendix
             })
             .filter(|appendix| !appendix.tables.is_empty())
             .collect()
@@ -169,12 +189,9 @@ impl Source<'_> {
         let rows = self.system.units.values().filter_map(|unit| {
             let entries = self.entries_in(unit);
             let base = unit.base.as_ref().map(|base| {
-                format!(
-                    "1 {} = {} {}",
-                    unit.symbol,
-                    self.wording.decimal(&base.factor.to_string()),
-                    base.symbol
-                )
+                let factor = self.wording.decimal(&base.factor.to_string());
+                let one = self.wording.quantity("1", &unit.symbol);
+                format!("{one} = {}", self.wording.quantity(&factor, &base.symbol))
             });
             (!entries.is_empty()).then(|| Row {
                 anchor: format!("unit-{}", self.unit_anchor(&unit.name)),

@@ -4,9 +4,11 @@ use std::collections::BTreeSet;
 
 use od_spec::model::{self, Devices, Index, Prose, ProseKind, TableId, Text};
 
+use crate::options::Gaps;
 use crate::source::Source;
 use crate::source::outline::{ChapterPlan, section_anchor};
-use crate::view::{Cell, Chapter, Content, Section, Table};
+use crate::view::cell::object_anchor;
+use crate::view::{Cell, Chapter, Content, ObjectName, Section, Table};
 
 impl Source<'_> {
     /// Chapters that have something to show, or have sections that do.
@@ -33,12 +35,15 @@ impl Source<'_> {
                 });
             }
             let Some(first) = views.first() else { continue };
-            chapters.push(Chapter {
+            let mut chapter = Chapter {
                 number: first.number.clone(),
                 title: first.title.clone(),
                 page: chapter.page.clone(),
                 sections: views,
-            });
+                untranslated: String::new(),
+            };
+            chapter.untranslated = self.untranslated(chapter.foreign());
+            chapters.push(chapter);
         }
         chapters
     }
@@ -82,7 +87,11 @@ impl Source<'_> {
             model::Content::Table(table) => {
                 let position = positions.get(*table).copied().flatten()?;
                 let anchor = String::new();
-                Some(Content { kind: "table", table: Some(position), items: Vec::new(), anchor })
+                let (items, objects) = (Vec::new(), Vec::new());
+                Some(Content { kind: "table", table: Some(position), items, anchor, objects })
+            }
+            model::Content::Prose(prose) if prose.kind == ProseKind::Gap && self.gaps != Gaps::InPlace => {
+                None
             }
             model::Content::Prose(prose) => {
                 let number = (prose.kind == ProseKind::Warning).then(|| warnings.next()).flatten();
@@ -98,15 +107,29 @@ impl Source<'_> {
         let items = prose.items.iter();
         let items = match prose.kind {
             ProseKind::Steps | ProseKind::List => items.map(|item| self.text_on(devices, item)).collect(),
-            ProseKind::Text | ProseKind::Note | ProseKind::Warning | ProseKind::Formula => {
+            ProseKind::Text | ProseKind::Note | ProseKind::Warning | ProseKind::Formula | ProseKind::Gap => {
                 items.flat_map(|text| self.lines(text, devices)).collect()
             }
         };
-        Content { kind: prose.kind.word(), table: None, items, anchor: String::new() }
+        let objects = prose.warns_for.iter().filter_map(|index| {
+            let object = self.devices.iter().find_map(|device| device.objects.get(index))?;
+            Some(ObjectName {
+                index: index.to_string(),
+                anchor: object_anchor(*index),
+                name: object.name.clone(),
+            })
+        });
+        Content {
+            kind: prose.kind.word(),
+            table: None,
+            items,
+            anchor: String::new(),
+            objects: objects.collect(),
+        }
     }
 
     /// The lines of a text in the language of the document, or else in its first one.
-    fn lines(&self, text: &Text, devices: &Devices) -> Vec<Cell> {
+    pub(crate) fn lines(&self, text: &Text, devices: &Devices) -> Vec<Cell> {
         let is_ours = |(code, _): &(&str, &str)| *code == self.language.code;
         let Some((code, words)) = text.iter().find(is_ours).or_else(|| text.iter().next()) else {
             return Vec::new();

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use od_spec::model::{
     Devices, Dictionary, Direction, Entry, EntryId, Fact, Index, NamedType, Object, ObjectKind, PdoMapping,
-    Storage, SystemSource, TypeKind, Value,
+    Phrases, Storage, SubIndex, SystemSource, TypeKind, Value,
 };
 
 use crate::language::Word;
@@ -13,12 +13,18 @@ use crate::source::outline::section_anchor;
 use crate::source::uses::Uses;
 use crate::tables::Columns;
 use crate::tables::bits::types_of;
+use crate::tables::errors;
+use crate::tables::objects::Warnings;
 use crate::tables::overview::among;
 use crate::view::cell::{entry_anchor, object_anchor, slug};
 use crate::view::long_list::LongList;
 use crate::view::{
-    Cell, DeviceView, EntryView, Filters, Grid, ObjectHead, ObjectView, PdoView, Place, Row, Table,
+    Cell, DeviceView, EntryView, Filters, Grid, ObjectHead, ObjectView, PdoView, Place, Row, SearchWords,
+    Stated, Table,
 };
+
+/// The entry that has the device type.
+const DEVICE_TYPE: EntryId = EntryId { index: Index(0x1000), sub: SubIndex(0) };
 
 impl Source<'_> {
     /// The page of a device: all links stay on it. The source is that of the device alone.
@@ -31,9 +37,13 @@ impl Source<'_> {
             Table::unnumbered("overview", "overview", Cell::default(), vec![self.overview_grid(rows)]);
         let filters = self.filters(device, &objects);
         let pdos: Vec<PdoView> = device.pdos.iter().map(|pdo| self.pdo(device, pdo)).collect();
-        DeviceView {
+        let mut view = DeviceView {
             key: device.key.clone(),
             name: device.name.clone(),
+            eds: match self.system.source {
+                SystemSource::Specification => format!("{}.eds", device.key),
+                SystemSource::Eds => String::new(),
+            },
             about: self.text(&device.about),
             facts: self.facts(device),
             dynamic_channels: self.dynamic_channels(device),
@@ -45,7 +55,28 @@ impl Source<'_> {
             pdos,
             appendices: self.device_appendices(),
             filters,
-        }
+            untranslated: String::new(),
+            workbench: self.workbench(device),
+            search: self.search_words(device),
+        };
+        view.untranslated = self.untranslated(view.foreign());
+        view
+    }
+
+    /// The words that readers look for, of all that has some.
+    fn search_words(&self, device: &Dictionary) -> Vec<SearchWords> {
+        let objects = device.objects.values().flat_map(|object| {
+            let entries = object.entries.iter().filter(move |_| object.is_structured());
+            let entries = entries.map(move |entry| (entry_anchor(id(object, entry)), &entry.search));
+            let types = types_of(object).into_iter().flat_map(move |named| searched(object, named));
+            std::iter::once((object_anchor(object.index), &object.search)).chain(entries).chain(types)
+        });
+        let errors = self.system.errors.iter().filter(|error| error.devices.includes(&device.key));
+        let errors = errors.map(|error| (errors::anchor(error.code), &error.search));
+        let searched = objects.chain(errors).filter(|(_, phrases)| !phrases.is_empty());
+        searched
+            .map(|(anchor, phrases)| SearchWords { anchor, phrases: phrases.all().cloned().collect() })
+            .collect()
     }
 
     /// The objects that no chapter shows in detail, and the PDOs: their names by anchor.
@@ -102,18 +133,31 @@ impl Source<'_> {
             SystemSource::Eds => device.facts.get(fact).is_some(),
         };
         let if_known = |fact: Fact, text: String| is_known(fact).then_some(text);
+        let of_device = |fact: Fact| self.stated_of_device(device, fact);
         let rows = [
-            (Word::Vendor, Some(self.system.vendor.name.clone())),
-            (Word::Name, Some(info.product_name.clone())),
-            (Word::OrderCode, Some(info.order_code.clone())),
-            (Word::Product, if_known(Fact::Product, number(info.product))),
-            (Word::ProductRevision, if_known(Fact::ProductRevision, number(info.product_revision))),
-            (Word::DeviceType, if_known(Fact::DeviceType, number(info.device_type))),
-            (Word::BitRates, if_known(Fact::BitRates, format!("{} kbit/s", rates.join(", ")))),
+            (Word::Vendor, Stated::Manual, Some(self.system.vendor.name.clone())),
+            (Word::Name, of_device(Fact::Name), Some(info.product_name.clone())),
+            (Word::OrderCode, of_device(Fact::Name), Some(info.order_code.clone())),
+            (Word::Product, of_device(Fact::Product), if_known(Fact::Product, number(info.product))),
+            (
+                Word::ProductRevision,
+                of_device(Fact::ProductRevision),
+                if_known(Fact::ProductRevision, number(info.product_revision)),
+            ),
+            (
+                Word::DeviceType,
+                self.stated_default(device, DEVICE_TYPE),
+                if_known(Fact::DeviceType, number(info.device_type)),
+            ),
+            (
+                Word::BitRates,
+                of_device(Fact::BitRates),
+                if_known(Fact::BitRates, format!("{} kbit/s", rates.join(", "))),
+            ),
         ];
-        let rows = rows
-            .into_iter()
-            .filter_map(|(word, text)| Some(Row::of(vec![Cell::plain(self.word(word)), Cell::plain(text?)])));
+        let rows = rows.into_iter().filter_map(|(word, stated, text)| {
+            Some(Row::of(vec![Cell::plain(self.word(word)), Cell::plain(text?).stated(stated)]))
+        });
         let grid = Columns::new()
             .left(self, "name", Word::Parameter)
             .left(self, "value", Word::Value)
@@ -194,7 +238,7 @@ impl Source<'_> {
         let types = types_of(object).into_iter().map(|named| {
             let (kind, word, grid) = match &named.kind {
                 TypeKind::Bits(fields) => ("bits", Word::Bits, self.bits(named, fields, None)),
-                TypeKind::Enum(values) => ("values", Word::Values, self.values(named.base, values)),
+                TypeKind::Enum(values) => ("values", Word::Values, self.values(named, values)),
             };
             let grid = anchored(grid, object, named);
             let anchor = format!("{}-type-{}", object_anchor(object.index), slug(&named.name));
@@ -219,6 +263,7 @@ impl Source<'_> {
             about: self.about(object),
             warning: self.warning(device, object),
             notes: self.notes(device, object),
+            changed: self.changed(device, object).unwrap_or_default(),
             table,
             types,
             used: uses.of(object.index),
@@ -250,6 +295,7 @@ impl Source<'_> {
             None => String::new(),
         };
         let (low, high) = entry.limits();
+        let names = self.code_names(&device.key, id);
         EntryView {
             index: object.index.to_string(),
             sub: entry.sub.0,
@@ -271,19 +317,16 @@ impl Source<'_> {
             symbol: entry.unit.as_ref().map_or_else(String::new, |unit| unit.symbol.clone()),
             stored: self.storage_word(entry.stored),
             path: format!("0x{:04X}:{:02X}", object.index.0, entry.sub.0),
-            rust: self
-                .accessors
-                .get(&device.key)
-                .and_then(|calls| calls.get(&id))
-                .cloned()
-                .unwrap_or_default(),
+            rust: names.rust,
+            c: names.c,
+            structured_text: names.structured_text,
         }
     }
 
     /// The entries of one object.
     fn detail(&self, device: &Dictionary, object: &Object) -> Grid {
         // The card itself is what links to an object lead to.
-        let rows = self.entry_rows(device, object, object.is_structured());
+        let rows = self.entry_rows(device, object, object.is_structured(), Warnings::Here);
         let grid = self.entry_columns(object).grid(rows, crate::tables::objects::ALWAYS);
         if !object.is_structured() {
             return grid;
@@ -387,21 +430,45 @@ impl Source<'_> {
 
 /// The rows of a type with anchors below each entry that has it: `6041.b3` is a bit, `6060.v8` a value.
 fn anchored(mut grid: Grid, object: &Object, named: &NamedType) -> Grid {
-    let has_it =
-        |entry: &&Entry| entry.named_type.as_deref().is_some_and(|its_type| its_type.name == named.name);
-    let having = object.entries.iter().filter(has_it);
-    let anchors: Vec<String> =
-        having.map(|entry| entry_anchor(EntryId { index: object.index, sub: entry.sub })).collect();
+    let anchors: Vec<String> = having(object, named).collect();
     let Some((first, others)) = anchors.split_first() else { return grid };
-    let parts: Vec<String> = match &named.kind {
-        TypeKind::Bits(fields) => fields.iter().map(|field| format!("b{}", field.first)).collect(),
-        TypeKind::Enum(values) => values.iter().map(|value| format!("v{}", value.value)).collect(),
-    };
-    for (row, part) in grid.rows.items_mut().iter_mut().zip(parts) {
+    for (row, part) in grid.rows.items_mut().iter_mut().zip(parts_of(named)) {
         row.anchor = format!("{first}.{part}");
         row.also = others.iter().map(|entry| format!("{entry}.{part}")).collect();
     }
     grid
+}
+
+/// Where links to the entries of a type lead.
+fn having<'a>(object: &'a Object, named: &'a NamedType) -> impl Iterator<Item = String> + 'a {
+    let has_it =
+        move |entry: &&Entry| entry.named_type.as_deref().is_some_and(|its_type| its_type.name == named.name);
+    object.entries.iter().filter(has_it).map(move |entry| entry_anchor(id(object, entry)))
+}
+
+/// What the bits or values of a type are called in links.
+fn parts_of(named: &NamedType) -> Vec<String> {
+    match &named.kind {
+        TypeKind::Bits(fields) => fields.iter().map(|field| format!("b{}", field.first)).collect(),
+        TypeKind::Enum(values) => values.iter().map(|value| format!("v{}", value.value)).collect(),
+    }
+}
+
+/// The bits and values of a type with the words by which readers look for them, at the first entry that has the type.
+fn searched<'a>(object: &'a Object, named: &'a NamedType) -> impl Iterator<Item = (String, &'a Phrases)> {
+    let phrases: Vec<&Phrases> = match &named.kind {
+        TypeKind::Bits(fields) => fields.iter().map(|field| &field.search).collect(),
+        TypeKind::Enum(values) => values.iter().map(|value| &value.search).collect(),
+    };
+    let first = having(object, named).next();
+    parts_of(named)
+        .into_iter()
+        .zip(phrases)
+        .filter_map(move |(part, phrases)| Some((format!("{}.{part}", first.as_ref()?), phrases)))
+}
+
+const fn id(object: &Object, entry: &Entry) -> EntryId {
+    EntryId { index: object.index, sub: entry.sub }
 }
 
 /// Unit symbols of an object's entries, each once.

@@ -4,4 +4,7 @@ pub(crate) mod appendix;
 mod chapters;
 mod device;
 mod groups;
+mod notation;
+mod questions;
 mod warnings;
+mod workbench;

@@ -1,5 +1,7 @@
 //! The overview of all warnings: each once, with every place where it is written.
 
+use std::collections::BTreeSet;
+
 use od_spec::model::{Devices, Dictionary, EntryId, SubIndex, Text};
 
 use crate::language::Word;
@@ -25,20 +27,28 @@ impl List {
 impl Source<'_> {
     /// Every warning of the chapters and of the objects; nothing where there are none.
     pub(crate) fn warnings(&self, chapters: &[Chapter]) -> Option<Table> {
-        let mut list = List::default();
+        let (mut list, mut said) = (List::default(), BTreeSet::new());
         for chapter in chapters {
             for section in &chapter.sections {
                 let title = format!("{} {}", section.number, section.title.text);
                 for part in section.content.iter().filter(|part| !part.anchor.is_empty()) {
                     let lines = part.items.iter().cloned();
                     let warning = lines.fold(Cell::default(), |cell, line| cell.line().and(line));
-                    let place = Cell::default().link(title.trim(), &*part.anchor, &*chapter.page);
-                    list.add(warning, place);
+                    let link = |text: &str| Cell::default().link(text, &*part.anchor, &*chapter.page);
+                    if part.objects.is_empty() {
+                        list.add(warning, link(title.trim()));
+                        continue;
+                    }
+                    for object in &part.objects {
+                        list.add(warning.clone(), link(&format!("{} {}", object.index, object.name)));
+                        said.insert(object.index.clone());
+                    }
                 }
             }
         }
         for device in &self.devices {
-            for object in device.objects.values() {
+            // What a chapter says in full is listed with it.
+            for object in device.objects.values().filter(|object| !said.contains(&object.index.to_string())) {
                 let whole = EntryId { index: object.index, sub: SubIndex(0) };
                 let name = format!("{} {}", object.index, object.name);
                 let place = self.link_on(

@@ -115,7 +115,7 @@ impl TermPrinter<'_, '_> {
         match term {
             Term::Number(number) => {
                 let number = self.source.wording.decimal(&number.to_string());
-                cell.text(if self.symbol.is_empty() { number } else { format!("{number} {}", self.symbol) })
+                cell.text(self.source.wording.quantity(&number, self.symbol))
             }
             Term::Entry(entry) => self.operand(cell, entry),
             Term::Bit(entry, bit) => {

@@ -4,6 +4,7 @@ pub(crate) mod conditions;
 mod numbers;
 pub(crate) mod outline;
 pub(crate) mod series;
+mod stated;
 pub(crate) mod uses;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,13 +14,13 @@ use std::rc::Rc;
 use od_spec::Library;
 use od_spec::model::{
     BitErrors, BitField, Departure, Devices, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace,
-    Fact, Index, Object, Part, Storage, System, SystemSource, Text, TypeKind,
+    Fact, Index, Object, Part, Storage, System, SystemSource, Text, TypeKind, Unit,
 };
 use od_spec::running_text::{Written, indices};
 use od_spec::wording::{self, Wording, filled};
 
 use crate::language::{Language, Word};
-use crate::options::Options;
+use crate::options::{CodeNames, Gaps, Options, Since};
 use crate::source::numbers::Numbers;
 use crate::source::outline::Outline;
 use crate::source::series::title;
@@ -31,6 +32,8 @@ use crate::view::{Cell, Target};
 struct Lookup {
     /// Positions of the errata about each object, ascending.
     errata: BTreeMap<Index, Vec<usize>>,
+    /// Positions of the errata that leave open what the values or bits of a type mean, by the type's name.
+    unprinted_types: BTreeMap<String, Vec<usize>>,
     /// Entries with error codes of their own for the bits of their type, by the type's name.
     bit_errors: BTreeMap<String, Vec<EntryId>>,
     /// Entries with bits that show an error code.
@@ -102,8 +105,12 @@ pub(crate) struct Source<'a> {
     pub language: Language<'a>,
     /// How facts are worded in that language.
     pub wording: Wording,
-    /// Calls of the accessors in generated Rust, by key of the device, then by entry.
-    pub accessors: &'a BTreeMap<String, BTreeMap<EntryId, String>>,
+    /// What changed since an earlier specification.
+    pub since: Option<&'a Since>,
+    /// What generated code calls entries, by key of the device, then by entry.
+    code_names: &'a BTreeMap<String, BTreeMap<EntryId, CodeNames>>,
+    /// Where to say what the printed manual leaves open.
+    pub gaps: Gaps,
     /// The page, where pages are small, that shows an object in detail.
     homes: BTreeMap<Index, String>,
     /// The document's sections by chapter.
@@ -125,7 +132,9 @@ impl<'a> Source<'a> {
             system,
             language,
             wording: language.wording(),
-            accessors: &options.accessors,
+            since: options.since.as_ref(),
+            code_names: &options.code_names,
+            gaps: options.gaps,
             homes: outline.homes(&system.document, &devices),
             outline: Rc::new(outline),
             with_page: devices.clone(),
@@ -151,14 +160,9 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The fixed words by the names that templates use.
-    pub(crate) fn words(&self) -> BTreeMap<&'static str, &'static str> {
-        let mut words = self.language.words();
-        words.remove(Word::LegendOfEds.key());
-        if self.system.source == SystemSource::Eds {
-            words.insert(Word::Legend.key(), self.word(Word::LegendOfEds));
-        }
-        words
+    /// What generated code calls an entry of a device.
+    pub(crate) fn code_names(&self, device: &str, id: EntryId) -> CodeNames {
+        self.code_names.get(device).and_then(|names| names.get(&id)).cloned().unwrap_or_default()
     }
 
     /// Where an entry is stored, as the specification's word; nothing where an EDS does not say that it is, because it has no
@@ -210,6 +214,21 @@ impl<'a> Source<'a> {
             let indices: BTreeSet<Index> = erratum.at.iter().map(|place| place.index()).collect();
             for index in indices {
                 lookup.errata.entry(index).or_default().push(position);
+            }
+        }
+        for (id, _, entry) in self.devices.iter().flat_map(|device| device.entries()) {
+            let Some(named) = &entry.named_type else { continue };
+            for at in lookup.errata.get(&id.index).into_iter().flatten() {
+                let erratum = &self.system.errata[*at];
+                let places = [ErratumPlace::Object(id.index), ErratumPlace::Entry(id)];
+                let leaves_it_open = erratum.unprinted.as_ref().is_some_and(stated::leaves_meaning_open);
+                if !leaves_it_open || !places.iter().any(|place| erratum.at.contains(place)) {
+                    continue;
+                }
+                let of_type: &mut Vec<usize> = lookup.unprinted_types.entry(named.name.clone()).or_default();
+                if !of_type.contains(at) {
+                    of_type.push(*at);
+                }
             }
         }
         let mut seen: BTreeSet<EntryId> = BTreeSet::new();
@@ -284,6 +303,21 @@ impl<'a> Source<'a> {
         filled(self.word(word), &[part])
     }
 
+    /// What a chapter says first whose texts are in another language.
+    pub(crate) fn untranslated(&self, language: Option<&str>) -> String {
+        language
+            .map_or_else(String::new, |code| self.sentence(Word::Untranslated, self.language.name_of(code)))
+    }
+
+    /// What one step of a unit is worth, as a link to the unit.
+    pub(crate) fn unit_link(&self, unit: &Unit) -> Cell {
+        let step = self.wording.step(unit);
+        match self.lookup.units.get(&unit.name) {
+            Some(anchor) => Cell::default().link(step, format!("unit-{anchor}"), "units"),
+            None => Cell::plain(step),
+        }
+    }
+
     /// A text of the specification, in which each index of an object shown is a link, and each number of a table, figure or section.
     pub(crate) fn text(&self, text: &Text) -> Cell {
         self.text_on(&Devices::All, text)
@@ -293,13 +327,20 @@ impl<'a> Source<'a> {
     pub(crate) fn text_on(&self, devices: &Devices, text: &Text) -> Cell {
         let words = Cell::words(text, self.language);
         let linked = words.parts().map(|part| self.linked(devices, part.text, part.language));
-        linked.fold(Cell::default(), Cell::and)
+        let cell = linked.fold(Cell::default(), Cell::and);
+        match text.gap().filter(|_| self.gaps == Gaps::InPlace) {
+            Some(gap) => {
+                let label = format!("{}:", self.word(Word::Gap));
+                cell.line().strong(label).text(" ").and(self.text_on(devices, gap))
+            }
+            None => cell,
+        }
     }
 
     /// A text as something else than this document words it, be it another issue of the manual: only an index is a link, as a number
     /// may mean another table there, or be wrong.
     pub(crate) fn quoted(&self, text: &Text) -> Cell {
-        let words = Cell::words(text, self.language);
+        let words = Cell::quoted(text, self.language);
         let quoted = words.parts().map(|part| {
             let links = self.links_to_objects(&Devices::All, part.text).collect();
             with_links(part.text, part.language, links)

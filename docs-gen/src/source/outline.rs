@@ -7,7 +7,7 @@ use od_spec::model::{Dictionary, Document, Figure, Index, Section, System, Table
 use crate::view::cell::slug;
 
 /// Names of pages that chapters leave to others.
-const PAGES: [&str; 10] = [
+const PAGES: [&str; 11] = [
     "readme",
     "index",
     "errors",
@@ -17,6 +17,7 @@ const PAGES: [&str; 10] = [
     "constraints",
     "machines",
     "errata",
+    "questions",
     "tables",
 ];
 

@@ -1,8 +1,8 @@
 //! Bit tables and value tables of named types, and pictures of registers.
 
 use od_spec::model::{
-    BitErrors, BitField, BitUsage, DataType, Devices, Dictionary, Edge, Entry, EnumValue, ModeMeaning,
-    NamedType, Object,
+    BitErrors, BitField, BitUsage, Devices, Dictionary, Edge, Entry, EnumValue, ModeMeaning, NamedType,
+    Object, TypeKind,
 };
 
 use super::Columns;
@@ -41,7 +41,7 @@ impl Source<'_> {
                     masks.map_or_else(Cell::default, |width| self.mask(field, width)),
                     field.mnemonic.as_ref().map_or_else(Cell::default, Cell::plain),
                     Cell::plain(name),
-                    self.meaning(field),
+                    self.meaning(field).stated(self.stated_of_type(named, field.first.into())),
                     Cell::plain(active),
                     field.clamp.as_ref().map_or_else(Cell::default, Cell::plain),
                     field.priority.as_ref().map_or_else(Cell::default, Cell::plain),
@@ -60,7 +60,7 @@ impl Source<'_> {
             .center(self, "priority", Word::Priority)
             .left(self, "error_codes", Word::AlarmCode)
             .grid(rows, &["bit", "name"]);
-        Grid { bits: Some(picture(named, fields)), ..grid }
+        Grid { bits: Some(picture(named)), ..grid }
     }
 
     /// The mask of a bit or run of bits; a run without a meaning needs none, and what a mask is too narrow for has none.
@@ -82,14 +82,16 @@ impl Source<'_> {
             if !value.supported {
                 cell = cell.text(format!(" ({})", self.word(Word::NotSupported)));
             }
-            if !value.about.is_empty() {
-                cell = cell.text(": ").and(self.text(&value.about));
+            let about = self.text(&value.about);
+            if !about.is_empty() {
+                cell = cell.text(": ").and(about);
             }
         }
         for ModeMeaning { mode, name, about, .. } in &field.modes {
             cell = cell.line().text(format!("{}: {name}", mode.value));
+            let about = self.text(about);
             if !about.is_empty() {
-                cell = cell.text("; ").and(self.text(about));
+                cell = cell.text("; ").and(about);
             }
         }
         cell
@@ -154,14 +156,14 @@ impl Source<'_> {
     }
 
     /// The values of an enum.
-    pub(crate) fn values(&self, base: DataType, values: &[EnumValue]) -> Grid {
+    pub(crate) fn values(&self, named: &NamedType, values: &[EnumValue]) -> Grid {
         let rows = values
             .iter()
             .map(|value| {
                 Row::of(vec![
-                    Cell::plain(self.wording.enum_number(base, value.value)),
+                    Cell::plain(self.wording.enum_number(named.base, value.value)),
                     Cell::plain(&value.name),
-                    self.text(&value.about),
+                    self.text(&value.about).stated(self.stated_of_type(named, value.value)),
                     if value.supported { Cell::default() } else { Cell::plain(self.word(Word::No)) },
                 ])
             })
@@ -187,7 +189,11 @@ pub(crate) fn types_of(object: &Object) -> Vec<&NamedType> {
 }
 
 /// A register in rows of 16 bits, the highest first.
-pub(crate) fn picture(named: &NamedType, fields: &[BitField]) -> BitPicture {
+fn picture(named: &NamedType) -> BitPicture {
+    let fields = match &named.kind {
+        TypeKind::Bits(fields) => fields.as_slice(),
+        TypeKind::Enum(_) => &[],
+    };
     let bits = named.base.bits().map_or(64, |bits| u8::try_from(bits).unwrap_or(64));
     let rows = (0..bits.div_ceil(16)).rev().map(|row| {
         let (first, last) = (row * 16, bits.min(row * 16 + 16) - 1);

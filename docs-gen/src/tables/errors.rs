@@ -1,6 +1,6 @@
 //! Error codes and what the devices do about them.
 
-use od_spec::model::{AnyError, Devices, Dictionary, ErrorCode, Text};
+use od_spec::model::{AnyError, Devices, Dictionary, ErrorCode, Fact, Text};
 
 use super::Columns;
 use super::variants::device_keys;
@@ -29,13 +29,16 @@ impl Source<'_> {
         Cell::default().link(text, anchor(code), "errors")
     }
 
-    /// The wanted codes of the devices shown; none means all.
+    /// The wanted codes of the devices shown, in their order; none means all.
     fn wanted(&self, codes: &[u16]) -> impl Iterator<Item = &ErrorCode> {
-        self.system
-            .errors
-            .iter()
-            .filter(move |error| codes.is_empty() || codes.contains(&error.code))
-            .filter(|error| self.shows_any(&error.devices))
+        let errors = &self.system.errors;
+        let all: Vec<&ErrorCode> = if codes.is_empty() {
+            errors.iter().collect()
+        } else {
+            let found = |code: &u16| errors.binary_search_by_key(code, |error| error.code).ok();
+            codes.iter().filter_map(found).map(|at| &errors[at]).collect()
+        };
+        all.into_iter().filter(|error| self.shows_any(&error.devices))
     }
 
     /// One row per code, with a column for each device.
@@ -127,8 +130,9 @@ impl Source<'_> {
             self.devices.iter().filter(|device| device.any_error != AnyError::default()).map(|device| {
                 let on = Devices::one(&device.key);
                 let AnyError { shown, reaction, reset, .. } = &device.any_error;
-                let said = [shown, reaction, reset].map(|text| {
-                    let cell = self.text_on(&on, text);
+                let said = [(shown, Fact::Shown), (reaction, Fact::Reaction), (reset, Fact::Reset)];
+                let said = said.map(|(text, fact)| {
+                    let cell = self.text_on(&on, text).stated(self.stated_of_device(device, fact));
                     if cell.is_empty() { Cell::plain(self.word(Word::NotStated)) } else { cell }
                 });
                 Row::of(std::iter::once(self.devices_cell(&[*device])).chain(said).collect())

@@ -66,7 +66,7 @@ impl Source<'_> {
             Some(raw) => self.wording.physical(unit, raw),
             None => {
                 let number = unit.decimal(steps).unwrap_or_else(|| steps.to_string());
-                format!("{} {}", self.wording.decimal(&number), unit.symbol)
+                self.wording.quantity(&self.wording.decimal(&number), &unit.symbol)
             }
         }
     }

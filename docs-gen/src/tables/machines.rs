@@ -58,14 +58,15 @@ fn sends_open(command: &Command, bit: usize) -> bool {
 
 impl Source<'_> {
     pub(crate) fn states(&self, machine: &StateMachine) -> Grid {
+        let stated = self.stated_of_machine(machine);
         let rows = machine
             .states
             .iter()
             .map(|state| {
                 Row::of(vec![
-                    Cell::default().code(pattern(&state.pattern)),
+                    Cell::default().code(pattern(&state.pattern)).stated(stated),
                     Cell::plain(&state.name),
-                    self.text(&state.about),
+                    self.text(&state.about).stated(stated),
                 ])
             })
             .collect();
@@ -93,16 +94,17 @@ impl Source<'_> {
     }
 
     pub(crate) fn transitions(&self, machine: &StateMachine) -> Grid {
+        let stated = self.stated_of_machine(machine);
         let rows = machine
             .transitions
             .iter()
             .map(|transition| {
                 Row::of(vec![
                     Cell::plain(transition.number.to_string()),
-                    Cell::plain(transition.from.join(", ")),
-                    Cell::plain(&transition.to),
-                    self.text(&transition.event),
-                    self.text(&transition.action),
+                    Cell::plain(transition.from.join(", ")).stated(stated),
+                    Cell::plain(&transition.to).stated(stated),
+                    self.text(&transition.event).stated(stated),
+                    self.text(&transition.action).stated(stated),
                 ])
             })
             .collect();
@@ -125,6 +127,7 @@ impl Source<'_> {
 
     /// One row per command, with a column for every bit that any command looks at.
     pub(crate) fn commands(&self, machine: &StateMachine) -> Grid {
+        let stated = self.stated_of_machine(machine);
         let bits = bits_of_commands(machine);
         let mut columns = Columns::new().left(self, "command", Word::Command);
         for bit in &bits {
@@ -151,11 +154,11 @@ impl Source<'_> {
                 }));
                 let send = command.send.zip(data_type);
                 cells.push(send.map_or_else(Cell::default, |(value, data_type)| {
-                    Cell::plain(self.wording.pattern(data_type, i128::from(value)))
+                    Cell::plain(self.wording.pattern(data_type, i128::from(value))).stated(stated)
                 }));
                 let transitions: Vec<String> = command.transitions.iter().map(u8::to_string).collect();
-                cells.push(Cell::plain(transitions.join(", ")));
-                cells.push(self.text(&command.about));
+                cells.push(Cell::plain(transitions.join(", ")).stated(stated));
+                cells.push(self.text(&command.about).stated(stated));
                 Row::of(cells)
             })
             .collect();

@@ -1,6 +1,7 @@
 //! From the contents of a table to its columns and rows.
 
 pub(crate) mod bits;
+mod changes;
 pub(crate) mod constraints;
 pub(crate) mod errors;
 mod flows;
@@ -14,13 +15,13 @@ mod timings;
 pub(crate) mod variants;
 
 use od_spec::model::{
-    BitTable, Constraint, Dictionary, Index, LadderTable, NamedType, TableContent, TableId, TypeKind,
+    BitTable, Constraint, Content, Dictionary, Index, LadderTable, NamedType, TableContent, TableId, TypeKind,
 };
 
 use crate::language::Word;
 use crate::source::Source;
 use crate::source::outline::{figure_anchor, kind_of, table_anchor};
-use crate::view::{Align, Cell, Column, FigureView, Grid, Row, Table};
+use crate::view::{Align, Cell, Column, FigureView, Grid, Mark, Row, Table};
 
 /// Columns, each with what it holds, its title and its alignment.
 pub(crate) struct Columns(Vec<Column>);
@@ -63,15 +64,21 @@ impl Columns {
             })
             .collect();
         let kept = |at: usize| keep.get(at).copied().unwrap_or(true);
-        let columns =
+        let columns: Vec<Column> =
             self.0.into_iter().enumerate().filter(|(at, _)| kept(*at)).map(|(_, column)| column).collect();
-        let rows = rows.into_iter().map(|row| {
+        let rows = rows.into_iter().map(|mut row| {
             let cells = row.cells.into_iter().enumerate().filter(|(at, _)| kept(*at)).map(|(_, cell)| cell);
             let mut cells: Vec<Cell> = cells.collect();
             cells.shrink_to_fit();
+            for mark in &mut row.errata {
+                if columns.iter().all(|column| column.key != mark.column) {
+                    mark.column = "";
+                }
+            }
             Row { cells, ..row }
         });
-        Grid { columns, rows: rows.collect(), ..Grid::default() }
+        let rows = rows.collect();
+        Grid { columns, rows, ..Grid::default() }
     }
 
     /// A grid of all columns.
@@ -122,6 +129,14 @@ impl Table {
     }
 }
 
+/// What is listed, in the order of these numbers; as it is where there are none. The language has each number once.
+fn in_order<T: Clone>(list: &[T], order: &[i128], number: impl Fn(&T) -> i128) -> Vec<T> {
+    let place = |one: &T| order.iter().position(|at| *at == number(one));
+    let mut list = list.to_vec();
+    list.sort_by_key(place);
+    list
+}
+
 impl Source<'_> {
     /// A table of the manual; `None` when the devices shown have nothing of it.
     pub(crate) fn table(&self, id: TableId) -> Option<Table> {
@@ -129,18 +144,23 @@ impl Source<'_> {
         let (mut ladder, mut about) = (None, Cell::default());
         let grids = match &table.content {
             TableContent::Overview(list) => vec![self.overview(list)],
-            TableContent::Objects(list) => self.details(list, |index| self.first_detail(id, index)),
+            TableContent::Objects(list) => {
+                let warned = self.warned_in(id.section);
+                self.details(list, |index| self.first_detail(id, index), &warned)
+            }
             TableContent::Bits(BitTable { named_type, masks }) => {
                 let named = self.shown_type(named_type)?;
                 about = self.text(&named.about);
                 let TypeKind::Bits(fields) = &named.kind else { return None };
-                vec![self.bits(named, fields, *masks)]
+                let fields = in_order(fields, &table.order, |field| field.first.into());
+                vec![self.bits(named, &fields, *masks)]
             }
             TableContent::Values(name) => {
                 let named = self.shown_type(name)?;
                 about = self.text(&named.about);
                 let TypeKind::Enum(values) = &named.kind else { return None };
-                vec![self.values(named.base, values)]
+                let values = in_order(values, &table.order, |value| value.value);
+                vec![self.values(named, &values)]
             }
             TableContent::Errors(codes) => vec![self.errors(codes)],
             TableContent::Reactions(codes) => vec![self.reactions(codes)],
@@ -194,6 +214,15 @@ impl Source<'_> {
         })
     }
 
+    /// The objects whose warnings the texts of a section say.
+    fn warned_in(&self, section: usize) -> Vec<Index> {
+        let prose = self.document().sections[section].content.iter().filter_map(|part| match part {
+            Content::Prose(prose) => Some(prose),
+            Content::Table(_) => None,
+        });
+        prose.flat_map(|prose| prose.warns_for.iter().copied()).collect()
+    }
+
     /// A named type that a device shown has.
     fn shown_type(&self, name: &str) -> Option<&NamedType> {
         self.system.types.get(name).filter(|_| self.shows_type(name)).map(|named| &**named)
@@ -214,13 +243,18 @@ impl Source<'_> {
         self.system.constraints.iter().filter(|constraint| self.shows_any(&constraint.devices))
     }
 
-    /// Numbers of the errata whose place names the table.
-    pub(crate) fn errata_of_table(&self, id: TableId) -> Vec<usize> {
+    /// Marks of the errata whose place names the table.
+    pub(crate) fn errata_of_table(&self, id: TableId) -> Vec<Mark> {
         let errata = self.system.errata.iter().enumerate();
         errata
             .filter(|(_, erratum)| self.is_about(erratum) && erratum.tables.contains(&id))
-            .map(|(at, _)| at + 1)
+            .map(|(at, _)| self.mark(at, ""))
             .collect()
+    }
+
+    /// The mark of an erratum in a column.
+    pub(crate) fn mark(&self, at: usize, column: &'static str) -> Mark {
+        Mark { number: at + 1, kind: self.wording.erratum_kind(self.system.errata[at].kind), column }
     }
 
     /// Whether this table is the first of the document to show the object in detail.

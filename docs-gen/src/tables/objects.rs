@@ -1,7 +1,7 @@
 //! Detail tables: one row per entry.
 
 use od_spec::model::{
-    Devices, Dictionary, Entry, EntryId, Fact, Index, Object, Origin, Storage, TypeKind, Value,
+    Devices, Dictionary, Entry, EntryId, ErratumKind, Fact, Index, Object, Storage, TypeKind, Value,
 };
 
 use super::Columns;
@@ -11,18 +11,33 @@ use crate::source::Source;
 use crate::view::cell::{entry_anchor, object_anchor};
 use crate::view::{Cell, Grid, ObjectHead, Row};
 
+/// Where the warnings of an object are said.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Warnings {
+    /// In its table.
+    Here,
+    /// In a text next to the table.
+    InText,
+}
+
 impl Source<'_> {
     /// The details of objects: those of one value that follow each other share a grid, an array or record has its own.
-    /// `first` says whether links to an object lead here.
-    pub(crate) fn details(&self, indices: &[Index], first: impl Fn(Index) -> bool) -> Vec<Grid> {
+    /// `first` says whether links to an object lead here, `warned` those whose warnings are said next to the table.
+    pub(crate) fn details(
+        &self,
+        indices: &[Index],
+        first: impl Fn(Index) -> bool,
+        warned: &[Index],
+    ) -> Vec<Grid> {
         let mut grids: Vec<Grid> = Vec::new();
         let mut simple: Vec<Row> = Vec::new();
         for index in indices {
+            let warnings = if warned.contains(index) { Warnings::InText } else { Warnings::Here };
             let variants = self.variants(*index, |device, object| {
                 let head = object.is_structured().then(|| {
                     (object.name.clone(), object.kind, object.about.clone(), object.warning.clone())
                 });
-                let rows = self.entry_rows(device, object, false);
+                let rows = self.entry_rows(device, object, false, warnings);
                 let texts =
                     rows.iter().map(|row| row.cells.iter().map(|cell| cell.text.clone()).collect::<Vec<_>>());
                 (head, texts.collect::<Vec<_>>())
@@ -35,7 +50,7 @@ impl Source<'_> {
                     continue;
                 };
                 let anchors = first(*index) && number == 0;
-                let mut rows = self.entry_rows(device, object, anchors);
+                let mut rows = self.entry_rows(device, object, anchors, warnings);
                 let label = if several { device_keys(devices) } else { String::new() };
                 if object.is_structured() {
                     grids.extend(self.simple_grid(std::mem::take(&mut simple)));
@@ -45,7 +60,10 @@ impl Source<'_> {
                         name: object.name.clone(),
                         kind: object.kind.name(),
                         about: self.text_on(&Devices::one(&device.key), &object.about),
-                        warning: self.warning(device, object),
+                        warning: match warnings {
+                            Warnings::Here => self.warning(device, object),
+                            Warnings::InText => Cell::default(),
+                        },
                         device: label,
                     };
                     grids.push(Grid { object: Some(head), ..self.entry_columns(object).grid(rows, ALWAYS) });
@@ -91,8 +109,14 @@ impl Source<'_> {
             .left(self, "device", Word::Device)
     }
 
-    /// The rows of an object's entries; the first cell is the index of a VAR, or the sub-index.
-    pub(crate) fn entry_rows(&self, device: &Dictionary, object: &Object, anchors: bool) -> Vec<Row> {
+    /// The rows of an object's entries, with their warnings or without; the first cell is the index of a VAR, or the sub-index.
+    pub(crate) fn entry_rows(
+        &self,
+        device: &Dictionary,
+        object: &Object,
+        anchors: bool,
+        warnings: Warnings,
+    ) -> Vec<Row> {
         object
             .entries
             .iter()
@@ -106,13 +130,14 @@ impl Source<'_> {
                     (true, 0) if object.is_structured() => format!("{}.0", object_anchor(object.index)),
                     (true, _) => entry_anchor(id),
                 };
-                let from_standard = |facts: &[Fact]| {
-                    says_where_words_come_from(object)
-                        && facts.iter().any(|fact| entry.is_only_standard(*fact))
-                };
-                let cell = |text: String, facts: &[Fact]| Cell::plain(text).standard(from_standard(facts));
-                let unit = entry.unit.as_ref().map_or_else(String::new, |unit| self.wording.step(unit));
+                let stated = |facts: &[Fact]| self.stated(device, object, entry, facts);
+                let cell = |text: String, facts: &[Fact]| Cell::plain(text).stated(stated(facts));
+                let unit = entry.unit.as_ref().map_or_else(Cell::default, |unit| self.unit_link(unit));
                 let range = self.wording.range(object.index, entry).unwrap_or_default();
+                let mark = |at: usize| {
+                    let column = column_of_entry(self.system.errata[at].kind);
+                    self.mark(at, column.unwrap_or_default())
+                };
                 Row {
                     anchor,
                     also: Vec::new(),
@@ -123,14 +148,14 @@ impl Source<'_> {
                         cell(self.wording.access(entry), &[Fact::Access]),
                         cell(self.wording.mapping(entry.pdo).to_owned(), &[Fact::Mapping]),
                         cell(self.default(object, entry), &[Fact::Default]),
-                        cell(unit, &[Fact::Unit]),
+                        unit.stated(stated(&[Fact::Unit])),
                         cell(range, &[Fact::LowLimit, Fact::HighLimit]),
                         cell(self.wording.storage(entry.stored).to_owned(), &[Fact::Storage]),
-                        self.description(device, object, entry).standard(from_standard(&[Fact::About])),
+                        self.description(device, object, entry, warnings).stated(stated(&[Fact::About])),
                         Cell::default(),
                     ],
                     stored: entry.stored != Storage::No,
-                    errata: self.errata_of_entry(object, entry).iter().map(|at| at + 1).collect(),
+                    errata: self.errata_of_entry(object, entry).into_iter().map(mark).collect(),
                 }
             })
             .collect()
@@ -143,10 +168,10 @@ impl Source<'_> {
     }
 
     /// Meaning of an entry and what else is to be known about it.
-    fn description(&self, device: &Dictionary, object: &Object, entry: &Entry) -> Cell {
+    fn description(&self, device: &Dictionary, object: &Object, entry: &Entry, warnings: Warnings) -> Cell {
         let of_device = Devices::one(&device.key);
         let mut cell = self.text_on(&of_device, &entry.about);
-        if !entry.warning.is_empty() {
+        if warnings == Warnings::Here && !entry.warning.is_empty() {
             let label = format!("{}:", self.word(Word::Warning));
             cell = cell.line().strong(label).text(" ").and(self.text_on(&of_device, &entry.warning));
         }
@@ -183,10 +208,28 @@ impl Source<'_> {
     }
 }
 
-/// Whether marks distinguish the maker's words from a standard's: they mix only in an object that the maker writes. An
-/// object that a feature brings as a whole is the standard's, and says so in its notes.
-fn says_where_words_come_from(object: &Object) -> bool {
-    object.origin == Origin::Manual
+/// The column that has a fact of an entry.
+pub(crate) const fn column_of_entry(kind: ErratumKind) -> Option<&'static str> {
+    match kind {
+        ErratumKind::Index => Some("index"),
+        ErratumKind::Name => Some("name"),
+        ErratumKind::Type | ErratumKind::Sign => Some("type"),
+        ErratumKind::Access => Some("access"),
+        ErratumKind::SubIndex => Some("sub"),
+        ErratumKind::Default => Some("default"),
+        ErratumKind::Limit => Some("range"),
+        ErratumKind::Unit => Some("unit"),
+        ErratumKind::Pdo => Some("map"),
+        ErratumKind::Stored => Some("stored"),
+        ErratumKind::ObjectType
+        | ErratumKind::Count
+        | ErratumKind::Bits
+        | ErratumKind::Values
+        | ErratumKind::Table
+        | ErratumKind::Text
+        | ErratumKind::Gap
+        | ErratumKind::Profile => None,
+    }
 }
 
 /// Columns that are there even when nothing fills them.

@@ -1,6 +1,6 @@
 //! Factory PDOs in the form of a manual: a row for the number of mapped entries, then a row for each of them.
 
-use od_spec::model::{DataType, Dictionary, Direction, Index, Pdo, PdoTarget, Ratio};
+use od_spec::model::{DataType, Dictionary, Direction, EntryId, Index, Pdo, PdoTarget, Ratio, SubIndex};
 
 use super::Columns;
 use crate::language::Word;
@@ -85,7 +85,7 @@ impl Source<'_> {
             direction: pdo.direction.word(),
             cob_id: pdo.cob_id.as_ref().map(|cob_id| self.wording.can_id(cob_id)).unwrap_or_default(),
             valid: pdo.valid,
-            facts: self.pdo_facts(pdo),
+            facts: self.pdo_facts(device, pdo),
             fields: fields.collect(),
             bits: pdo.bits(),
             about: self.text(&pdo.about),
@@ -98,17 +98,24 @@ impl Source<'_> {
         cob_id.map_or_else(Cell::default, |cob_id| Cell::plain(self.wording.cob_id_entry(cob_id)))
     }
 
-    fn pdo_facts(&self, pdo: &Pdo) -> Table {
+    fn pdo_facts(&self, device: &Dictionary, pdo: &Pdo) -> Table {
         let index = |index: u16| {
             let index = Index(index);
             Cell::default().link(index.to_string(), object_anchor(index), self.home(index))
         };
+        let stated = |sub: u8| {
+            self.stated_default(
+                device,
+                EntryId { index: Index(pdo.communication_index()), sub: SubIndex(sub) },
+            )
+        };
+        let enabled = Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No }));
         let mut rows = vec![
-            (Word::CobId, self.cob_id(pdo)),
-            (Word::Enabled, Cell::plain(self.word(if pdo.valid { Word::Yes } else { Word::No }))),
+            (Word::CobId, self.cob_id(pdo).stated(stated(1))),
+            (Word::Enabled, enabled.stated(stated(1))),
         ];
         if let Some(transmission) = pdo.transmission {
-            rows.push((Word::Transmission, Cell::plain(transmission.to_string())));
+            rows.push((Word::Transmission, Cell::plain(transmission.to_string()).stated(stated(2))));
         }
         if let Some(time) = pdo.inhibit_time {
             let tenths = Ratio::new(i128::from(time), 10).and_then(|ms| ms.to_decimal(1)).unwrap_or_default();

@@ -3,14 +3,12 @@
 use std::io;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::view::Context;
-
 /// Bytes of all pages of a set. The pages of a device with 100,000 entries have a fifth of it.
 pub(super) const OUTPUT: usize = 512 << 20;
 
-/// Steps that a page may take. The shipped templates take less than a thousand for an entry.
-pub(super) const fn steps(context: &Context) -> u64 {
-    10_000_000 + 5_000 * context.entries as u64
+/// Steps that a page may take that shows, or lists, so many entries. The shipped templates take less than a thousand for an entry.
+pub(super) const fn steps(entries: usize) -> u64 {
+    10_000_000 + 5_000 * entries as u64
 }
 
 /// What is left of the bytes that the pages of a set may have.

@@ -17,10 +17,10 @@ pub(crate) fn paragraph(contents: &Value, page: &str) -> Result<String, Error> {
 /// A cell on a page: links to the same page are short.
 pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
     let mut text = String::new();
-    // The word of a standard is in italics; a line break ends them.
-    let italics = if cell.get_attr("standard")?.is_true() { "*" } else { "" };
-    let mut parts = cell.get_attr("parts")?.try_iter()?.peekable();
-    while let Some(part) = parts.next() {
+    let stated = cell.get_attr("stated")?.to_string();
+    // What the maker does not say is in italics; a line break ends them.
+    let italics = if stated == "manual" { "" } else { "*" };
+    for part in cell.get_attr("parts")?.try_iter()? {
         let words = part.get_attr("text")?.to_string();
         match part.get_attr("kind")?.as_str() {
             Some("break") => text.push_str("<br>"),
@@ -40,7 +40,8 @@ pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
                 let file =
                     if target == page || target.is_empty() { String::new() } else { format!("{target}.md") };
                 let anchor = part.get_attr("anchor")?.to_string();
-                let _ = write!(text, "[{}]({file}#{})", escape(&words).replace('\n', " "), heading(&anchor));
+                let words = escape(&words).replace('\n', " ");
+                let _ = write!(text, "[{italics}{words}{italics}]({file}#{})", heading(&anchor));
             }
             _ => {
                 let words = escape(&words).replace('\n', " ");
@@ -52,12 +53,9 @@ pub(crate) fn cell(cell: &Value, page: &str) -> Result<String, Error> {
                 }
             }
         }
-        // After the last of the parts that are in another language.
-        let language = part.get_attr("language")?.to_string();
-        let behind = parts.peek().map(|next| next.get_attr("language")).transpose()?;
-        if !language.is_empty() && behind.is_none_or(|next| next.to_string() != language) {
-            let _ = write!(text, " *({language})*");
-        }
+    }
+    if stated == "assumed" {
+        text.push_str(" *?*");
     }
     Ok(text)
 }

@@ -16,6 +16,8 @@ use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
 use minijinja::{Environment, ErrorKind, UndefinedBehavior, context};
 
+use crate::options::Siblings;
+use crate::portal::Portal;
 use crate::view::Context;
 
 /// A format that this crate has templates for.
@@ -50,13 +52,19 @@ const MARKDOWN: &[(&str, &str)] =
     files!("md/_macros.md", "md/README.md", "md/chapter.md", "md/device.md", "md/appendix.md");
 const HTML: &[(&str, &str)] = files!(
     "html/_layout.html",
+    "html/_portal.html",
     "html/_links.html",
     "html/_macros.html",
     "html/_pictures.html",
     "html/_style.css",
     "html/_script.js",
     "html/_search.js",
+    "html/_words.js",
     "html/_search.html",
+    "html/_values.js",
+    "html/_workbench.css",
+    "html/_workbench.html",
+    "html/_workbench.js",
     "html/_user.css",
     "html/_footer.html",
     "html/index.html",
@@ -128,6 +136,8 @@ impl std::error::Error for TemplateError {}
 /// A set of templates, ready to print.
 #[derive(Debug)]
 pub struct Templates {
+    /// The format that they print; none for templates of a user alone.
+    pub format: Option<Format>,
     environment: Environment<'static>,
     files: BTreeMap<String, String>,
 }
@@ -145,7 +155,7 @@ impl Templates {
             files.insert((*name).to_owned(), (*text).to_owned());
         }
         files.extend(replacements.iter().cloned());
-        let mut templates = Self { environment: environment(), files };
+        let mut templates = Self { format, environment: environment(), files };
         for (name, text) in &templates.files {
             if let Err(error) = templates.environment.add_template_owned(name.clone(), text.clone()) {
                 return Err(templates.explain(name, &error));
@@ -190,12 +200,36 @@ impl Templates {
                 wanted.push((name, path, context! { ..Value::from(item), ..variables }));
             }
         }
-        let pages = self.pages(&wanted, bounds::steps(context))?;
+        let pages = self.pages(&wanted, bounds::steps(context.entries))?;
         let mut seen = BTreeSet::new();
         if let Some(twice) = pages.iter().find(|page| !seen.insert(page.path.to_lowercase())) {
             return Err(TemplateError::SamePage(twice.path.clone()));
         }
         Ok(pages)
+    }
+
+    /// The start page of several documents; `None` if the set has no template for it, which is `_portal.EXT`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Templates::print`].
+    pub fn print_portal(&self, portal: &Portal) -> Result<Option<Page>, TemplateError> {
+        let Some((template, path)) = self
+            .files
+            .keys()
+            .find_map(|name| Some((name, format!("index.{}", name.strip_prefix("_portal.")?))))
+        else {
+            return Ok(None);
+        };
+        let page = context! { name => "index", path => path.clone(), kind => "portal" };
+        let nothing = Vec::<Value>::new();
+        let siblings = Value::from(Serde(&Siblings::default()));
+        let of_page =
+            context! { page, appendices => nothing.clone(), devices => nothing, origin => (), siblings };
+        let variables = context! { ..of_page, ..Value::from(Serde(portal)) };
+        let places: usize =
+            portal.documents.iter().flat_map(|one| &one.pages).map(|one| one.places.len()).sum();
+        Ok(self.pages(&[(template, path, variables)], bounds::steps(places))?.pop())
     }
 
     /// Prints pages on all cores, each a template with its file and variables, and gives them in their order. Of several that

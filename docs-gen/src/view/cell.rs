@@ -4,7 +4,7 @@ use od_spec::model::{EntryId, Index, Text};
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
 use crate::language::Language;
-use crate::view::{Cell, Part, PartKind, Span};
+use crate::view::{Cell, Part, PartKind, Span, Stated};
 
 /// Lists of up to so many parts take no more memory than they need; longer ones grow in larger steps.
 const FEW: usize = 8;
@@ -15,17 +15,26 @@ impl Cell {
         Self { text: text.into(), ..Self::default() }
     }
 
-    /// A text of the specification; where it is in another language, that is marked.
+    /// A text of the specification, with arrows for `->`; where it is in another language, that is marked.
     pub(crate) fn words(text: &Text, language: Language<'_>) -> Self {
+        Self::in_own_language(text, language, |words| words.replace("->", "→"))
+    }
+
+    /// The same character by character.
+    pub(crate) fn quoted(text: &Text, language: Language<'_>) -> Self {
+        Self::in_own_language(text, language, str::to_owned)
+    }
+
+    fn in_own_language(text: &Text, language: Language<'_>, print: fn(&str) -> String) -> Self {
         let Some(words) = text.get(language.code) else { return Self::default() };
         let is_foreign = text.iter().all(|(code, _)| code != language.code) && has_words(words);
         let written_in = text.iter().next().map_or("", |(code, _)| code);
-        Self::default().in_language(words, if is_foreign { written_in } else { "" })
+        Self::default().in_language(&print(words), if is_foreign { written_in } else { "" })
     }
 
-    /// The same as the word of a standard that the maker does not repeat.
-    pub(crate) fn standard(self, standard: bool) -> Self {
-        Self { standard, ..self }
+    /// The same as the word of this author, if it has words.
+    pub(crate) fn stated(self, stated: Stated) -> Self {
+        if self.is_empty() { self } else { Self { stated, ..self } }
     }
 
     /// Nothing to show.
@@ -54,6 +63,15 @@ impl Cell {
                 language: &span.language,
             }
         }))
+    }
+
+    /// Whether it is a list of links, with hardly any text around them.
+    fn is_list_of_links(&self) -> bool {
+        let count = |is_link| {
+            let parts = self.parts().filter(move |part| (part.kind == PartKind::Link) == is_link);
+            parts.map(|part| part.text.chars().filter(|sign| sign.is_alphanumeric()).count())
+        };
+        count(true).count() > 1 && count(false).sum::<usize>() < count(true).sum()
     }
 
     /// With a text after it; `span` says what it is, except for its end.
@@ -138,7 +156,7 @@ impl Cell {
             return self;
         }
         if self.is_empty() {
-            return Self { standard: self.standard, ..behind };
+            return Self { stated: self.stated, ..behind };
         }
         self.spell_out();
         behind.spell_out();
@@ -171,10 +189,11 @@ impl Serialize for Cell {
                 serializer.collect_seq(self.0.parts())
             }
         }
-        let mut cell = serializer.serialize_struct("Cell", 3)?;
+        let mut cell = serializer.serialize_struct("Cell", 4)?;
         cell.serialize_field("text", &self.text)?;
         cell.serialize_field("parts", &Parts(self))?;
-        cell.serialize_field("standard", &self.standard)?;
+        cell.serialize_field("links", &self.is_list_of_links())?;
+        cell.serialize_field("stated", &self.stated)?;
         cell.end()
     }
 }

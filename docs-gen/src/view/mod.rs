@@ -3,8 +3,10 @@
 //! A table is data: columns, and rows of cells. A template only decides how a table looks, so that every format shows the same.
 
 pub(crate) mod cell;
+mod foreign;
 pub(crate) mod long_list;
 mod pictures;
+pub(crate) mod workbench;
 
 use std::collections::BTreeMap;
 
@@ -18,14 +20,19 @@ pub use pictures::{
 };
 
 pub use crate::view::long_list::LongList;
+pub use crate::view::workbench::{
+    Whole, WorkEntry, WorkField, WorkFrame, WorkLimit, WorkMachine, WorkType, WorkValue, Workbench,
+};
+
+use crate::options::{Origin, Siblings};
 
 /// Version of the format; raised when a template would have to change.
-pub(crate) const FORMAT: u32 = 1;
+pub(crate) const FORMAT: u32 = 2;
 
 /// Everything that a document can show.
 #[derive(Debug, Clone, Serialize)]
 pub struct Context {
-    /// Version of this format: 1.
+    /// Version of this format: 2.
     pub format: u32,
     /// Code of the language.
     pub language: String,
@@ -35,12 +42,20 @@ pub struct Context {
     pub synonyms: Vec<Vec<&'static str>>,
     /// Whether a printed manual shows where it differs from the issue that it takes the place of.
     pub errata: bool,
+    /// The documents that it is printed with.
+    pub siblings: Siblings,
+    /// The file that the document is made from, if that is known.
+    pub origin: Option<Origin>,
+    /// Version of odgen.
+    pub version: &'static str,
     /// The system.
     pub system: SystemView,
     /// Devices, in the order of the specification.
     pub devices: Vec<DeviceView>,
     /// Chapters of the manual with their sections and tables.
     pub chapters: Vec<Chapter>,
+    /// What signs and abbreviations of the tables mean.
+    pub notation: Table,
     /// Every warning with its places: of the chapters, then of the objects; nothing where there are none.
     pub warnings: Option<Table>,
     /// Tables over the whole system: error codes, aliases, units, storage, constraints, errata, index of tables.
@@ -55,8 +70,14 @@ pub struct Context {
 pub struct SystemView {
     /// Title of the product or family.
     pub title: String,
+    /// What the manual is about, below its title; may be empty.
+    pub subtitle: Cell,
     /// Maker.
     pub vendor: String,
+    /// The maker's address, in lines; may be empty.
+    pub address: Vec<Cell>,
+    /// The maker's logo, as an address that has it in itself (`data:`); may be empty.
+    pub logo: String,
     /// Title and edition of the printed manual, or nothing.
     pub source: String,
     /// What the manual is.
@@ -78,6 +99,8 @@ pub struct Chapter {
     pub page: String,
     /// The chapter itself and the sections below it, in order.
     pub sections: Vec<Section>,
+    /// That its texts are in another language, as a sentence; empty where all are in that of the document.
+    pub untranslated: String,
 }
 
 /// A chapter or section.
@@ -100,7 +123,7 @@ pub struct Section {
 /// A table or a text of a section.
 #[derive(Debug, Clone, Serialize)]
 pub struct Content {
-    /// `table`, `text`, `note`, `warning`, `steps`, `list` or `formula`.
+    /// `table`, `text`, `note`, `warning`, `steps`, `list`, `formula` or `gap`.
     pub kind: &'static str,
     /// Position of the table in the section's tables.
     pub table: Option<usize>,
@@ -108,6 +131,8 @@ pub struct Content {
     pub items: Vec<Cell>,
     /// Where links to a warning lead; empty for anything else.
     pub anchor: String,
+    /// The objects whose own warnings it says.
+    pub objects: Vec<ObjectName>,
 }
 
 /// A table, or several grids under one caption.
@@ -130,8 +155,19 @@ pub struct Table {
     pub grids: Vec<Grid>,
     /// The thresholds of a `ladder`, to be drawn.
     pub ladder: Option<Ladder>,
-    /// Numbers of the errata about it.
-    pub errata: Vec<usize>,
+    /// Errata about it as a whole.
+    pub errata: Vec<Mark>,
+}
+
+/// A mark of an erratum, at the fact that it is about.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Mark {
+    /// Number of the erratum.
+    pub number: usize,
+    /// What kind of fact.
+    pub kind: &'static str,
+    /// Key of the column that has the fact; empty where none has it.
+    pub column: &'static str,
 }
 
 /// A numbered figure.
@@ -221,8 +257,8 @@ pub struct Row {
     pub cells: Vec<Cell>,
     /// Whether an entry of the row is stored; such rows are shaded.
     pub stored: bool,
-    /// Numbers of the errata about the row.
-    pub errata: Vec<usize>,
+    /// Errata about the row.
+    pub errata: Vec<Mark>,
 }
 
 /// The contents of a cell, or another piece of text. A document has very many, most of them one plain text.
@@ -232,8 +268,21 @@ pub struct Cell {
     pub text: String,
     /// What its parts are; nothing where it is one plain text, or empty.
     pub(crate) spans: Vec<Span>,
-    /// Whether a standard says it, and the maker does not.
-    pub standard: bool,
+    /// Who says it.
+    pub stated: Stated,
+}
+
+/// Who says what is in a [`Cell`].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stated {
+    /// The maker: the printed manual, or what follows from it.
+    #[default]
+    Manual,
+    /// A standard, and the maker does not.
+    Standard,
+    /// Neither: it is assumed.
+    Assumed,
 }
 
 /// What a part of a [`Cell`] is, and where it ends in the text.
@@ -284,6 +333,8 @@ pub struct DeviceView {
     pub key: String,
     /// Full name.
     pub name: String,
+    /// Name of its EDS file; empty where the document is made from an EDS.
+    pub eds: String,
     /// Meaning.
     pub about: Cell,
     /// Facts of `[DeviceInfo]`.
@@ -306,6 +357,21 @@ pub struct DeviceView {
     pub appendices: Vec<Appendix>,
     /// Data types, units, groups and accesses that occur, for filters.
     pub filters: Filters,
+    /// That its texts are in another language, as a sentence; empty where all are in that of the document.
+    pub untranslated: String,
+    /// What its page calculates with.
+    pub workbench: Workbench,
+    /// Words by which readers look for something and which its texts do not have.
+    pub search: Vec<SearchWords>,
+}
+
+/// Words by which readers look for an object, an entry, a bit, a value or an error code, in all languages.
+#[derive(Debug, Clone, Serialize)]
+pub struct SearchWords {
+    /// Where links to it lead: `6064`, `6041.b7`, `error-8611`.
+    pub anchor: String,
+    /// Words and phrases.
+    pub phrases: Vec<String>,
 }
 
 /// Objects that belong together.
@@ -362,6 +428,8 @@ pub struct ObjectView {
     pub warning: Cell,
     /// Lines about the object: standard, category, issue.
     pub notes: Vec<Cell>,
+    /// Since which specification it is another, and where that is described; empty if it is the same, or nothing was compared.
+    pub changed: Cell,
     /// Detail table.
     pub table: Table,
     /// Bit and value tables of its types.
@@ -453,6 +521,10 @@ pub struct EntryView {
     pub path: String,
     /// Call of the accessor in generated Rust; empty where there is none.
     pub rust: String,
+    /// The constant with its index in generated C; empty where there is none.
+    pub c: String,
+    /// The constant with its index in generated Structured Text; empty where there is none.
+    pub structured_text: String,
 }
 
 /// An erratum.
@@ -525,4 +597,6 @@ pub struct Appendix {
     pub intro: Cell,
     /// Its tables.
     pub tables: Vec<Table>,
+    /// That its texts are in another language, as a sentence; empty where all are in that of the document.
+    pub untranslated: String,
 }

@@ -1,11 +1,14 @@
 "use strict";
 (() => {
+{% include "_words.js" %}
 {% include "_search.js" %}
 
   const byId = (id) => document.getElementById(id);
   const root = document.documentElement, search = byId("ui_search"), count = byId("ui_count"), contents = byId("ui_contents"), main = byId("ui_content");
   const element = (name, text = "") => Object.assign(document.createElement(name), { textContent: text });
   const show = (one, shown) => one?.classList.toggle("off", !shown);
+  // Without the script none of the tools would do anything.
+  document.querySelector(".tools").hidden = false;
 
   // Light or dark: as the system says, until the button is used.
   const remember = (theme) => { try { localStorage.setItem("od-theme", theme); } catch { /* not from file:// everywhere */ } };
@@ -26,12 +29,24 @@
     let shown = false;
     try { shown = localStorage.getItem("od-errata") === "shown"; } catch { /* the same */ }
     showErrata(shown);
-    compare.addEventListener("click", () => {
+    document.addEventListener("click", (event) => {
+      const button = event.target.closest?.("#ui_errata, .hint");
+      if (!button) return;
       const shows = root.classList.contains("unmarked");
       showErrata(shows);
       try { localStorage.setItem("od-errata", shows ? "shown" : "hidden"); } catch { /* the same */ }
+      // A count goes away when what it counts is shown: the keyboard goes on there.
+      if (button.matches(".hint")) button.parentElement.querySelector(".mark, .errata-of a, summary")?.focus();
     });
   }
+
+  // What the keys do.
+  const keys = byId("ui_keys");
+  byId("ui_help").addEventListener("click", () => keys.showModal());
+
+  // On a phone one button opens the filters; it says how many are in use.
+  const fold = byId("ui_filters"), foldName = fold?.textContent;
+  fold?.addEventListener("click", () => fold.setAttribute("aria-expanded", fold.getAttribute("aria-expanded") !== "true"));
 
   // What is linked to stops below the bar, which is as high as its lines.
   const bar = document.querySelector(".bar");
@@ -41,8 +56,10 @@
 
   // ---- Cards and their places, read from the page once.
   const data = JSON.parse(byId("ui_data")?.textContent ?? "{}");
-  const { words = {}, synonyms = [], elsewhere = [] } = data;
+  const { words = {}, synonyms = [], search: sought = [], elsewhere = [] } = data;
   const index = new WordIndex(synonyms);
+  // Words of the specification by which readers look for what has other names, by where links to it lead.
+  const phrasesOf = new Map(sought.filter(Boolean).map(([anchor, ...phrases]) => [anchor, phrases]));
   const links = new Map([...contents.querySelectorAll("a[href^='#']")].map((link) => [decodeURIComponent(link.hash.slice(1)), link.parentElement]));
   const items = [...document.querySelectorAll("article.object, .intro, .part")]
     .map((card) => ({ card, link: links.get(card.id), shown: true, isObject: card.matches(".object") }));
@@ -67,13 +84,15 @@
   // Rows by their first column: what they are.
   const KIND_OF_ROW = { bit: "bit", value: "value", code: "error", sub: "entry", index: "entry" };
   const kindOf = (columns) => (columns.includes("because") ? "erratum" : KIND_OF_ROW[columns[0]] ?? "row");
-  // A name is that of an object or an entry; bits, values and errors are facts of these, and an appendix of a device only repeats.
-  const fieldOf = (column, at, kind, item) => {
+  // A name is that of an object or an entry; bits, values and errors are facts of these. An appendix of a device and rows that no link leads to only repeat.
+  const fieldOf = (column, at, kind, repeats) => {
     const field = FIELD_OF_COLUMN[column] ?? FACT;
     const isNumbered = kind === "bit" || kind === "value";
     if (isNumbered && at === 0) return NAME;
+    // What a bit, a value or an error means is said nowhere else.
+    if ((isNumbered && column === "meaning") || (kind === "error" && column === "description")) return FACT;
     if (field !== NAME) return field;
-    return isNumbered || (column === "name" && kind === "error") || (column !== "code" && !item.isObject && objects.length > 0) ? FACT : NAME;
+    return isNumbered || (column === "name" && kind === "error") || (column !== "code" && repeats) ? FACT : NAME;
   };
   const clean = (text) => text.replace(/\s+/g, " ").trim();
   // What filters look at; many rows have the same.
@@ -98,7 +117,8 @@
 
   const readRows = (item, table, inHead) => {
     const columns = (table.dataset.columns ?? "").split(" "), kind = kindOf(columns), name = columns.indexOf("name");
-    const fieldsOfColumns = columns.map((column, at) => fieldOf(column, at, kind, item));
+    const repeats = !item.isObject && (objects.length > 0 || !table.tBodies[0]?.rows[0]?.id);
+    const fieldsOfColumns = columns.map((column, at) => fieldOf(column, at, kind, repeats));
     // A bit and a value are also found by what their numbers are: `bit 3`.
     const label = kind === "bit" || kind === "value" ? table.tHead.rows[0].cells[0].textContent : "";
     for (const row of table.tBodies[0]?.rows ?? []) {
@@ -109,7 +129,9 @@
         if (text && !(inHead && (at === 0 || at === name))) fields[fieldsOfColumns[at]].push(text);
       }
       if (inHead) continue;
-      index.place({ item, row, kind, facts: factsOf(row), later: !item.isObject && (objects.length > 0 || !row.id) }, fields);
+      const isMain = item.isObject || (row.id && (objects.length === 0 || kind === "error"));
+      const place = { item, row, kind, facts: factsOf(row), later: !isMain, called: label || name < 0 ? "" : row.cells[name].textContent };
+      index.place(place, fields, phrasesOf.get(row.id), kind === "entry" ? NAME : FACT);
     }
   };
 
@@ -123,7 +145,7 @@
     }
     for (const one of table.children) {
       if (one.matches(".object-head")) index.place({ item, row: one, kind: "object" }, [[one.textContent], [], [], []]);
-      else if (one.matches("table")) readRows(item, one);
+      else for (const own of one.querySelectorAll(":scope > table")) readRows(item, own);
     }
   };
 
@@ -137,6 +159,8 @@
     item.uses = card.querySelectorAll(":scope > dl dd[data-kind]").length;
     item.title = item.isObject ? `${number} ${name}` : title;
     const fields = [[number, name], [small], [], []];
+    // An appendix of a device is called like what its rows repeat.
+    if (!item.isObject && objects.length > 0) [fields[NAME], fields[FACT]] = [[], [title]];
     for (const one of card.children) {
       if (one.matches("p.notes") && item.isObject) {
         fields[FACT].push(one.textContent);
@@ -145,14 +169,16 @@
       }
       else if (one.matches("p:not(.notes)")) fields[TEXT].push(one.textContent);
     }
-    const tables = [...card.querySelectorAll(":scope > table")];
+    const tables = [...card.querySelectorAll(":scope > .scroll > table")];
     for (const table of tables) if (table.dataset.columns?.startsWith("index")) readRows(item, table, fields);
-    index.place({ item, row: null, kind: item.isObject ? "object" : "part", title: item.title, later: views.has(card.id) }, fields);
+    const head = { item, row: null, kind: item.isObject ? "object" : "part", title: item.title, later: views.has(card.id) };
+    index.place(head, fields, phrasesOf.get(card.id));
     let pdo = null;
     for (const one of card.children) {
-      if (one.matches("table") && !one.dataset.columns?.startsWith("index")) readRows(item, one);
+      const own = tables.find((table) => table.parentNode === one);
+      if (own && !own.dataset.columns?.startsWith("index")) readRows(item, own);
       else if (one.matches("h3[id]") && one !== heading) {
-        pdo = [[one.textContent], [], [], []];
+        pdo = [[one.textContent], [words.pdo, words.mapping], [], []];
         // What follows up to the next heading belongs to it.
         for (let next = one.nextElementSibling; next && !next.matches("h3"); next = next.nextElementSibling) {
           for (const part of next.querySelectorAll("title, td")) pdo[FACT].push(part.textContent);
@@ -161,10 +187,10 @@
       } else if (one.matches(".table") && !pdo) readTable(item, one);
       else if (one.matches("dl")) {
         for (const line of one.querySelectorAll("dd")) {
-          index.place({ item, row: line, kind: "use", title: item.title }, [[], [line.textContent], [], []]);
+          index.place({ item, row: line, kind: "use", title: item.title }, [[], [], [line.textContent], []]);
         }
       } else if (one.matches("details")) {
-        for (const line of one.querySelectorAll("li")) {
+        for (const line of one.querySelectorAll(".compared tbody tr")) {
           index.place({ item, row: line, kind: "erratum", title: item.title }, [[], [], [], [line.textContent]]);
         }
       }
@@ -174,10 +200,22 @@
   // Reading is spread over idle times; who searches before waits for the rest.
   const reader = (function* () {
     for (const item of items) yield readCard(item);
-    for (const [page, label, places] of elsewhere.filter(Boolean)) {
-      for (const [anchor, title, more] of places.filter(Boolean)) {
+    for (const [page, label, places, phrases] of elsewhere.filter(Boolean)) {
+      // What is looked for there, by the words of the specification: objects, and single entries, bits, values and errors.
+      const more = new Map((phrases ?? []).filter(Boolean).map(([anchor, ...own]) => [anchor, own])), titles = new Map();
+      const add = (anchor, title, facts) => {
         index.card({ page });
-        index.place({ kind: "page", label, href: `${page}#${anchor}`, title }, [[title.slice(0, 5), title], [more ?? ""], [], []]);
+        index.place({ kind: "page", label, href: `${page}#${anchor}`, title }, [[title.slice(0, 5), title], [facts], [], []], more.get(anchor));
+      };
+      for (const [anchor, title, facts = ""] of places.filter(Boolean)) {
+        add(anchor, title, facts);
+        titles.set(anchor, title);
+        yield;
+      }
+      for (const anchor of more.keys()) {
+        if (titles.has(anchor)) continue;
+        const title = titles.get(anchor.slice(0, 4));
+        add(anchor, title ? `${title} (${anchor})` : anchor.replace(/^error-/, `${words.error} `), "");
         yield;
       }
     }
@@ -205,17 +243,24 @@
   const wanted = () => filters.filter((filter) => filter.value).map((filter) => [filter.dataset.filter, filter.value]);
   const fitsEntry = (asked, facts) => asked.every(([key, value]) => facts[key] === value || (key === "pdo" && facts.pdo === "both"));
 
-  // `3020.5`, `3020:05` and `0x3020/0x05` name an entry; its card is found by the index. After `:` and `0x` digits are hexadecimal.
-  const entry = (text) => {
-    const parts = /^(?:0x)?([0-9a-f]{4})h?([.:/])(0x)?([0-9a-f]{1,3})(h?)$/i.exec(text.trim());
-    if (!parts) return null;
-    const [, object, mark, prefix, digits, suffix] = parts;
-    const sub = parseInt(digits, mark === ":" || prefix || suffix ? 16 : 10);
-    return Number.isNaN(sub) ? null : `${object.toUpperCase()}.${sub}`;
-  };
   // What an address names: an id, in any case of letters; sub-index 0 of an object without others is the object.
   const targetOf = (name) => byId(name) ?? byId(name.toUpperCase()) ?? byId(name.replace(/^[0-9a-f]{4}/i, (digits) => digits.toUpperCase()))
     ?? (/^[0-9a-f]{4}\.0$/i.test(name) ? byId(name.slice(0, 4).toUpperCase()) : null);
+
+  // The anchor that a whole question is the address of. Of a run of bits, any is; a place on another page is known by its index.
+  const addressed = (text) => {
+    const anchors = addressesOf(text);
+    return anchors.find((anchor) => targetOf(anchor)) ?? anchors.map(runOf).find((anchor) => anchor)
+      ?? anchors.find((anchor) => index.knows(anchor.slice(0, 4))) ?? null;
+  };
+  const runOf = (anchor) => {
+    const [, entry, bit] = /^(.+\.b)(\d+)$/.exec(anchor) ?? [];
+    for (let first = Number(bit) - 1; first >= 0; first--) {
+      const row = targetOf(`${entry}${first}`)?.closest("tr"), last = /\d+\D+(\d+)/.exec(row?.cells[0].textContent ?? "");
+      if (row) return Number(last?.[1]) >= Number(bit) ? `${entry}${first}` : null;
+    }
+    return null;
+  };
 
   // ---- Showing what was found.
   // What was found: on this page, and on others.
@@ -233,6 +278,15 @@
     item.isWhole = true;
     show(item.all, false);
   };
+  // While many rows of a table come and go it is away: else the browser would lay out all of it again after each piece.
+  const putAway = (item) => {
+    item.away ??= [...item.card.querySelectorAll("table")].filter((table) => table.tBodies[0].rows.length > SOME && !table.contains(aimed));
+    for (const table of item.away) show(table, false);
+  };
+  const bringBack = (item) => {
+    for (const table of item.away ?? []) show(table, true);
+    item.away = null;
+  };
   // A card can be a list of ten thousand rows, so that the work on one is done in pieces, too: these generators say after some rows that they may be interrupted.
   const undress = function* (item, isOver = () => false) {
     for (let done = 1; item.marks?.length > 0; done++) {
@@ -245,12 +299,14 @@
       if (isOver()) return;
     }
     item.marks = [];
+    if (item.off?.length > SOME) putAway(item);
     while (item.off?.length > SOME) {
       for (const row of item.off.splice(-SOME)) show(row, true);
       yield;
       if (isOver()) return;
     }
     showRows(item);
+    bringBack(item);
     worn.delete(item);
   };
 
@@ -282,6 +338,7 @@
     dressed.add(item);
     yield* undress(item);
     worn.add(item);
+    putAway(item);
     item.isWhole = false;
     const asked = wanted();
     const places = item.found ? index.placesOf(item.found, found) : [], rows = [];
@@ -306,9 +363,9 @@
         const away = !fits || (keep.size > 0 && !keep.has(row) && (isOfEntries ? hasEntries && list.length > 1 : true));
         if (away && row !== aimed) { show(row, false); item.off.push(row); }
       }
-      const box = table.parentElement;
+      const box = table.closest(".table, .compared");
       // A table of which nothing is left goes with its caption and picture.
-      if (box.matches(".table") && list.length > 0 && !some && keep.size > 0 && !box.querySelector("tbody tr:not(.off)")) { show(box, false); item.off.push(box); }
+      if (box && list.length > 0 && !some && keep.size > 0 && !box.querySelector("tbody tr:not(.off)")) { show(box, false); item.off.push(box); }
     }
     if (item.off.length > 0) {
       if (!item.all) {
@@ -319,6 +376,7 @@
       show(item.all, true);
     }
     if (marked) yield* markText(item, item.card);
+    bringBack(item);
   };
 
   // Work that is not needed at once is done in pieces; a new question ends that of the last one. What takes longer is a generator.
@@ -359,7 +417,7 @@
 
   // ---- The list of results, the best first.
   const results = byId("ui_results"), [listOfPage, listElsewhere] = results.querySelectorAll("ol"), more = results.querySelector("button");
-  const FEW_GROUPS = 100, FIRST = 12, LONGEST_TITLE = 90;
+  const FEW_GROUPS = 100, FIRST = 12, LONGEST_TITLE = 90, CLEARLY = 10 * 64;
   const cut = (text) => (text.length > LONGEST_TITLE ? `${text.slice(0, LONGEST_TITLE - 1)}…` : text);
   const anchorOf = (at) => {
     const { row, item } = index.places[at];
@@ -395,6 +453,10 @@
     more.textContent = `${hits.length - limit} ${words.more}`;
     show(more, hits.length > limit);
     show(listElsewhere.previousElementSibling, hitsElsewhere.length > 0);
+    // Where another page answers better, its list is the first; on the page of a device, only where this one has a word less, or the words in texts alone.
+    const [own] = hits, [other] = hitsElsewhere, least = other?.rank === SOUGHT && own?.rank >= 64 ? 0 : objects.length > 0 && own?.missing === 0 ? CLEARLY : 2 * 64;
+    const isElsewhere = other !== undefined && (own === undefined || (other.missing === 0 && other.rank + least < own.rank));
+    if (isElsewhere) results.append(listOfPage, more); else results.append(listElsewhere.previousElementSibling, listElsewhere);
   };
   more.addEventListener("click", () => list(Infinity));
 
@@ -437,10 +499,11 @@
   const apply = (isSliced = false, after = () => {}) => {
     performance.mark("search");
     const asked = wanted(), text = search.value.trim(), isAsked = text !== "", begun = waiting += 1;
+    if (fold) fold.textContent = asked.length > 0 ? `${foldName} (${asked.length})` : foldName;
     if (isAsked && !read(100)) { whenIdle(() => { if (begun === waiting) apply(false, after); }); return; }
     round += 1;
     if (asked.length > 0) for (const item of items) item.fits = rowsOf(item).some((facts) => fitsEntry(asked, facts));
-    const named = entry(text), allowed = asked.length === 0 ? null
+    const named = isAsked ? addressed(text) : null, allowed = asked.length === 0 ? null
       : ({ item, facts }) => !item || (item.fits && (!facts || fitsEntry(asked, facts)));
     const work = isAsked ? index.search(named ? named.slice(0, 4) : text, allowed) : answered(null);
     asking = { work, finish: (value) => { display(value, asked, isAsked, named); after(); } };
@@ -453,9 +516,12 @@
     found = value;
     if (found && named) {
       // An entry by its address comes first, before anything else of its card.
-      const target = targetOf(named), at = index.places.findIndex(({ row }) => row === target);
-      const first = found.cards.find(({ number }) => index.cards[number].card === target?.closest("article"));
-      if (at >= 0 && first) { first.at = at; found.cards = [first, ...found.cards.filter((one) => one !== first)]; }
+      const target = targetOf(named), row = target?.closest("tr") ?? target, card = target?.closest("article");
+      const first = found.cards.find(({ number }) => card && index.cards[number].card === card);
+      if (first) {
+        first.at = Math.max(index.places.findIndex((place) => place.row && place.row === row), index.cards[first.number].first);
+        found.cards = [first, ...found.cards.filter((one) => one !== first)];
+      }
     }
     marked = found && WordIndex.marked(found.meanings);
     hits = [];
@@ -478,6 +544,9 @@
     root.classList.toggle("searching", searching);
     show(results, found !== null && found.cards.length > 0);
     show(byId("ui_similar"), found?.similar === true);
+    show(byId("ui_partial"), found?.partial === true);
+    byId("ui_unknown").lastElementChild.textContent = found?.unknown.join(", ");
+    show(byId("ui_unknown"), found?.unknown.length > 0);
     if (found) list(FIRST);
     count.textContent = searching ? counts(shown, shownObjects) : "";
     show(byId("ui_nothing"), searching && shown === 0);
@@ -548,7 +617,7 @@
     if (event.key === "Enter") {
       finishAsking();
       keep(true);
-      (listOfPage.querySelector("a") ?? listElsewhere.querySelector("a"))?.click();
+      results.querySelector("a")?.click();
     } else if (event.key === "ArrowDown") {
       event.preventDefault();
       finishAsking();
@@ -568,7 +637,8 @@
   document.addEventListener("keydown", (event) => {
     const typing = event.target.matches?.("input, select, textarea");
     if (event.key === "/" && !typing && !event.ctrlKey && !event.metaKey) { event.preventDefault(); search.focus(); search.select(); }
-    if (event.key === "Escape" && !isOver() && (typing || root.classList.contains("searching"))) { clear(); search.focus(); }
+    if (event.key === "?" && !typing && !keys.open) { event.preventDefault(); keys.showModal(); }
+    if (event.key === "Escape" && !isOver() && !keys.open && (typing || root.classList.contains("searching"))) { clear(); search.focus(); }
   });
 
   // ---- The contents: they mark where the reader is. What is below the bar is asked for, so that no card has to be watched.
@@ -634,16 +704,14 @@
   const hold = (target) => {
     const around = [];
     for (let part = target.closest(LAZY); part; part = part.parentElement.closest(LAZY)) around.push(part);
-    const more = around.filter((part) => !held.includes(part));
     for (const part of held) if (!around.includes(part)) part.style.contentVisibility = "";
-    for (const part of more) part.style.contentVisibility = "visible";
+    for (const part of around) part.style.contentVisibility = "visible";
     held = around;
-    // The browser reports no layout that it has not put off.
-    fit(more.filter((part) => itemOf.has(part)));
   };
   const settle = (target) => {
     const begun = landing += 1;
     landed = null;
+    if (target.closest("details")) target.closest("details").open = true;
     hold(target);
     landed = { target, begun };
     let still = 0, frames = 0;
@@ -672,7 +740,6 @@
     if (item && !item.shown) clear();
     aimed = target.closest("tr");
     if (target.closest(".off")) showRows(item);
-    if (target.closest("details")) target.closest("details").open = true;
     settle(target);
   };
   addEventListener("popstate", () => {
@@ -684,23 +751,27 @@
     // A link to where one is already changes no address.
     if (!elsewhere && link) setTimeout(reveal);
   });
-  // ---- On a phone the cells of a row are below one another, each after the title of its column; elsewhere, next to one another as far as there is room
-  // where a table is wider than its card. What is no longer a table to a browser's layout is not a table to some screen readers either, so that it says what it is. At other
-  // widths this is not needed, and it would make a page half as large again.
-  const phone = matchMedia("(max-width: 37.5rem)"), PIECE = 50, LONG_TEXT = 60;
+  // ---- On a phone the cells of a row are below one another, each after the title of its column; what a row is called comes first, as a line. What is no longer a
+  // table to a browser's layout is not a table to some screen readers either, so that it says what it is. At other widths this is not needed, and it would make a
+  // page half as large again.
+  const phone = matchMedia("(max-width: 37.5rem)"), PIECE = 50;
+  const CALLED = ["sub", "index", "bit", "value", "code", "number", "mnemonic", "name"];
   const notStacked = [...document.querySelectorAll(".stack")].reverse();
   const stack = (table) => {
-    if (table.matches(".stacked")) return;
     table.setAttribute("role", "table");
-    const titles = [...table.tHead.rows[0].cells].map((title) => title.textContent);
+    const titles = [...table.tHead.rows[0].cells], columns = table.dataset.columns.split(" ");
+    const other = columns.findIndex((column) => !CALLED.includes(column));
     for (const part of [table.tHead, ...table.tBodies]) part.setAttribute("role", "rowgroup");
     for (const row of table.rows) {
       row.setAttribute("role", "row");
       for (const [at, cell] of [...row.cells].entries()) {
         cell.setAttribute("role", cell.localName === "th" ? "columnheader" : "cell");
         if (cell.parentNode.parentNode === table.tHead) continue;
-        cell.dataset.label = titles[at];
-        if (cell.textContent.length > LONG_TEXT) cell.dataset.long = "";
+        if (at < other) { cell.dataset.called = ""; continue; }
+        cell.dataset.label = titles[at].textContent;
+        if (titles[at].matches(".text")) cell.dataset.text = "";
+        // Of a cell that has nothing but hidden marks, the title would be left alone.
+        if (cell.childNodes.length > 0 && [...cell.childNodes].every((node) => node.matches?.(".mark") ?? !node.data.trim())) cell.dataset.bare = "";
       }
     }
     table.classList.add("stacked");
@@ -717,39 +788,20 @@
   phone.addEventListener("change", () => { if (!isStacking) stackTables(); });
   stackTables();
 
-  // How wide a table has to be is known once it did not fit, or left too little for a column of long texts. Only what is laid out is measured.
-  const needed = new Map(), LEAST = 210;
-  const lacking = (table) => {
-    const [head, ...rows] = table.rows;
-    return [...head.cells].reduce((lack, title, at) => {
-      const isLong = title.offsetWidth < LEAST && rows.some((row) => row.cells[at]?.textContent.length > LONG_TEXT);
-      return isLong ? lack + LEAST - title.offsetWidth : lack;
-    }, 0);
-  };
-  const pixels = (length) => Number(length.replace("px", ""));
-  const fit = (cards) => {
-    if (phone.matches) return;
-    const tables = cards.flatMap((card) => {
-      const { paddingLeft, paddingRight } = getComputedStyle(card), room = card.clientWidth - pixels(paddingLeft) - pixels(paddingRight) + 1;
-      return [...card.querySelectorAll(".stack")].map((table) => ({ table, room }));
-    });
-    for (const { table, room } of tables) if (needed.get(table) <= room) table.classList.remove("folded");
-    const measured = tables.filter(({ table }) => !table.matches(".folded")).map(({ table, room }) => ({ table, room, width: table.offsetWidth + lacking(table) }));
-    const tooWide = measured.filter(({ room, width }) => width > room);
-    if (tooWide.length === 0) return;
+  // What is wider than its place says so, and is reached by the keyboard; what fits is not.
+  const places = new ResizeObserver((changes) => {
     const target = staying();
-    for (const { table, width } of tooWide) {
-      needed.set(table, width);
-      stack(table);
-      table.classList.add("folded");
+    let isOther = false;
+    for (const box of new Set(changes.map((change) => change.target.closest(".scroll")))) {
+      const isWide = box.scrollWidth > box.clientWidth + 1;
+      isOther ||= isWide !== box.matches(".scrolls");
+      box.classList.toggle("scrolls", isWide);
+      if (isWide) box.tabIndex = 0; else box.removeAttribute("tabindex");
     }
     // A busy browser reports what it has laid out after a link has landed.
-    if (target) settle(target);
-  };
-  const isLaidOut = ({ card }) => card.firstElementChild?.checkVisibility?.({ contentVisibilityAuto: true }) ?? false;
-  const fitAll = () => fit(items.filter(isLaidOut).map(({ card }) => card));
-  document.addEventListener("contentvisibilityautostatechange", (event) => { if (!event.skipped && itemOf.has(event.target)) fit([event.target]); });
-  addEventListener("resize", fitAll);
+    if (target && isOther) settle(target);
+  });
+  for (const box of document.querySelectorAll(".scroll")) for (const one of [box, ...box.children]) places.observe(one);
 
   if (location.search) fromAddress(reveal); else reveal();
   markSoon();

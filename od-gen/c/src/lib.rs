@@ -13,11 +13,13 @@ mod relations;
 mod text;
 mod types;
 
+use std::collections::BTreeMap;
+
 use od_gen::Artifact;
 use od_gen::Provenance;
 use od_gen::plan::{Plan, decided, plan};
 use od_spec::diag::Diagnostics;
-use od_spec::model::{Dictionary, System};
+use od_spec::model::{Dictionary, EntryId, System};
 
 pub(crate) use self::language::C;
 use self::names::{Names, Register};
@@ -58,6 +60,18 @@ pub fn artifacts<'a>(
         }
     }
     if diagnostics.errors_found() == before { set } else { Vec::new() }
+}
+
+/// The macro with the index of each entry, such as `PMC_INDEX_STATUSWORD`; of none where the device cannot be C.
+pub fn index_names(system: &System, device: &Dictionary) -> BTreeMap<EntryId, String> {
+    let mut diagnostics = Diagnostics::new();
+    let device = decided(system, device, &C);
+    let plan = plan(system, &device, &C, &mut diagnostics);
+    if diagnostics.has_errors() {
+        return BTreeMap::new();
+    }
+    let names = Names::of(&device);
+    plan.entries.iter().map(|entry| (entry.id, names.macro_of(&plain::index_name(entry)))).collect()
 }
 
 /// What the files of all devices include, each once however many there are.

@@ -81,6 +81,20 @@ impl Text {
         self.line(&format!("#define {name} {value}"));
     }
 
+    /// A macro for flags that are joined, or for 0 where there are none.
+    pub(super) fn flags(&mut self, name: &str, flags: &[&str]) {
+        let Some((last, first)) = flags.split_last() else { return self.define(name, "0") };
+        let line = flags.join(" | ");
+        if line.len() + name.len() + "#define  ()".len() <= WIDTH {
+            return self.define(name, &format!("({line})"));
+        }
+        self.line(&format!("#define {name} ( \\"));
+        for flag in first {
+            self.line(&format!("    {flag} | \\"));
+        }
+        self.line(&format!("    {last})"));
+    }
+
     /// A member of an initialiser: `.name = value,`. The items of a list that is too long for one line fill several.
     pub(super) fn value(&mut self, name: &str, value: &str) {
         let line = format!("{name} = {value},");

@@ -6,7 +6,7 @@ use od_spec::model::{
 
 use super::change::{Change, Class, Place};
 use super::scope::Scope;
-use super::texts::texts;
+use super::texts::{phrases, texts};
 use super::words::{self, VALUES, WORDS};
 use super::{rules, types};
 
@@ -65,6 +65,7 @@ impl Pair<'_> {
         ] {
             changes.extend(texts(&self.place(), fact, old, new, self.language));
         }
+        changes.extend(phrases(&self.place(), &self.old.search, &self.new.search, self.language));
         changes.extend(self.eds());
         changes
     }

@@ -54,7 +54,7 @@ use od_spec::model::{Dictionary, System};
 
 pub use self::change::{Change, Class, Consequence, Kind, Place};
 pub use self::pairs::Unpaired;
-pub use self::print::{human, json, markdown, short};
+pub use self::print::{Row, human, json, markdown, row, short};
 pub use self::proposal::{Advice, Parts, Proposal, Proposals};
 pub use self::scope::Scope;
 

@@ -11,7 +11,7 @@ use super::editor::editor;
 use super::entries::Pair;
 use super::rules;
 use super::scope::Scope;
-use super::texts::texts;
+use super::texts::{phrases, texts};
 use super::words::{self, WORDS};
 
 /// Two devices that are compared.
@@ -143,7 +143,8 @@ impl Devices<'_> {
         } else {
             texts(&place, Fact::About, &old.about, &new.about, self.language)
         };
-        facts.into_iter().flatten().chain(warning).chain(about).collect()
+        let search = phrases(&place, &old.search, &new.search, self.language);
+        facts.into_iter().flatten().chain(warning).chain(about).chain(search).collect()
     }
 
     /// What a PDO carries, in one change instead of one for each mapping entry.

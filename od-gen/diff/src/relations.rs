@@ -9,7 +9,7 @@ use od_spec::model::{
 use super::change::{Change, Class, Consequence, Place};
 use super::objects::Devices;
 use super::rules::{self, same_words};
-use super::texts::texts;
+use super::texts::{phrases, texts};
 use super::types::Names;
 
 /// The systems that the devices belong to.
@@ -92,7 +92,8 @@ impl Systems<'_> {
         let yes_no = |is_it: bool| if is_it { "as stated" } else { "otherwise" };
         let treated = Change::text(place.clone(), Fact::Reaction, yes_no(treated.0), yes_no(treated.1))
             .map(|change| behaves(change, DOES_SOMETHING_ELSE).part("treated-by"));
-        let found = found.chain(register).chain(treated).chain(reset).chain(about);
+        let search = phrases(&place, &before.search, &after.search, language);
+        let found = found.chain(register).chain(treated).chain(reset).chain(about).chain(search);
         found.map(|change| change.named(&after.name)).collect()
     }
 

@@ -8,7 +8,7 @@ use od_spec::model::{
 
 use super::change::{Change, Class, Consequence, Place};
 use super::rules::{self, Consequences, same_words};
-use super::texts::texts;
+use super::texts::{phrases, texts};
 use super::words::{self, VALUES};
 
 /// What generated code calls after the members of a type, on both sides; `None` where there is no code to break.
@@ -174,7 +174,8 @@ impl Members<'_> {
             changes.push(change.part(part).with(support(before.supported, after.supported)));
         }
         let about = texts(&self.place, Fact::About, &before.about, &after.about, self.language);
-        changes.extend(about.into_iter().map(|change| change.part(part)));
+        let search = phrases(&self.place, &before.search, &after.search, self.language);
+        changes.extend(about.into_iter().chain(search).map(|change| change.part(part)));
         changes
     }
 
@@ -312,7 +313,8 @@ impl Members<'_> {
         changes.extend(self.values(&format!("{part} "), base, &before.values, &after.values));
         changes.extend(self.modes(part, &before.modes, &after.modes));
         let about = texts(&self.place, Fact::About, &before.about, &after.about, self.language);
-        changes.extend(about.into_iter().map(|change| change.part(part)));
+        let search = phrases(&self.place, &before.search, &after.search, self.language);
+        changes.extend(about.into_iter().chain(search).map(|change| change.part(part)));
         changes
     }
 

@@ -1,26 +1,76 @@
-//! Reference documentation as files, with the calls of accessors in Rust, and the index of tables for programs.
+//! Reference documentation as files, with what generated code calls entries, and the index of tables for programs.
 //!
-//! `docs-gen` prints pages and knows no generator; here they meet the accessors of the generated Rust.
+//! `docs-gen` prints pages and knows no generator; here they meet the names in generated Rust, C and Structured Text.
 
-pub use docs_gen::{Format, Options, TemplateError, Templates};
+use std::collections::BTreeMap;
 
-use od_gen::{Artifact, rust};
-use od_spec::model::{Devices, System};
+pub use docs_gen::portal::language_name;
+pub use docs_gen::{
+    Changed, CodeNames, Format, Gaps, InLanguage, Options, Origin, Siblings, Since, TemplateError, Templates,
+};
+
+use docs_gen::Context;
+use docs_gen::portal::{Document, Portal};
+use od_gen::{Artifact, Provenance, rust};
+use od_spec::model::{Devices, Dictionary, EntryId, System};
+use od_spec::source::SourceMap;
 use serde::Serialize;
 
 /// What documents of these devices show; no key means all devices.
 pub fn options(system: &System, devices: &[String], language: Option<&str>) -> Options {
     let devices = Devices::listed(devices);
     let chosen = system.devices.iter().filter(|device| devices.includes(&device.key));
+    let language = language.map(str::to_owned);
     let mut options =
-        Options { devices: devices.clone(), language: language.map(str::to_owned), ..Options::default() };
+        Options { devices: devices.clone(), language, gaps: Gaps::LeftOut, ..Options::default() };
     for device in chosen {
-        options.accessors.insert(device.key.clone(), rust::accessors(system, device).into_iter().collect());
+        options.code_names.insert(device.key.clone(), code_names(system, device));
     }
     options
 }
 
-/// The documents of a specification by the name of `stem`, below `root`, and `tables.json` where it describes a manual.
+/// A specification to be printed.
+#[derive(Debug, Clone)]
+pub struct Edition<'a> {
+    /// The specification.
+    pub system: &'a System,
+    /// The folder of its pages.
+    pub folder: String,
+    /// What they show.
+    pub options: Options,
+}
+
+/// What was read for a specification; its own file is the first.
+pub fn origin(sources: &SourceMap) -> Origin {
+    let texts = sources.files().flat_map(|(_, file)| file.text().bytes());
+    Origin { file: Provenance::of(sources).name().to_owned(), checksum: format!("{:08X}", crc32(texts)) }
+}
+
+/// The CRC-32 of ZIP and PNG.
+fn crc32(bytes: impl Iterator<Item = u8>) -> u32 {
+    let crc = bytes.fold(u32::MAX, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| crc >> 1 ^ if crc & 1 == 0 { 0 } else { 0xEDB8_8320 })
+    });
+    !crc
+}
+
+/// What generated code calls the entries of a device.
+fn code_names(system: &System, device: &Dictionary) -> BTreeMap<EntryId, CodeNames> {
+    let mut names: BTreeMap<EntryId, CodeNames> = BTreeMap::new();
+    for (id, rust) in rust::accessors(system, device) {
+        names.entry(id).or_default().rust = rust;
+    }
+    for (id, c) in od_c::index_names(system, device) {
+        names.entry(id).or_default().c = c;
+    }
+    for (id, structured_text) in od_st::index_names(system, device) {
+        names.entry(id).or_default().structured_text = structured_text;
+    }
+    names
+}
+
+/// The documents of a specification by the name of `stem`, below `root`, and `tables.json` where it describes a manual. Only the
+/// printed manual, and a user's own templates, leave out or gather what is open: pages for the screen say it in its place.
 ///
 /// # Errors
 /// A template has a mistake, or asks for something that the context does not have.
@@ -31,21 +81,65 @@ pub fn artifacts(
     options: &Options,
     templates: &[Templates],
 ) -> Result<Vec<Artifact>, TemplateError> {
-    let context = docs_gen::context(system, options);
-    let mut list = Vec::new();
+    let (artifacts, _) = print(system, &format!("{root}{stem}"), options, templates)?;
+    Ok(artifacts)
+}
+
+/// The documents of several specifications, or of one in several languages, with a start page for all of them where the
+/// templates have one.
+///
+/// # Errors
+/// As [`artifacts`].
+pub fn with_start_page(
+    editions: &[Edition<'_>],
+    templates: &[Templates],
+) -> Result<Vec<Artifact>, TemplateError> {
+    let (mut list, mut documents, mut first) = (Vec::new(), Vec::new(), None);
+    for Edition { system, folder, options } in editions {
+        let (artifacts, context) = print(system, folder, options, templates)?;
+        list.extend(artifacts);
+        documents.extend(context.as_ref().map(|context| Document::of(folder, context)));
+        first = first.or(context);
+    }
+    let Some(first) = first else { return Ok(list) };
+    let portal = Portal::new(&first, documents);
     for templates in templates {
+        list.extend(templates.print_portal(&portal)?.map(|page| Artifact {
+            path: page.path,
+            bytes: page.text.into_bytes(),
+            purpose: "start page of all documents".to_owned(),
+        }));
+    }
+    Ok(list)
+}
+
+/// The documents of a specification, and what its last templates see.
+fn print(
+    system: &System,
+    folder: &str,
+    options: &Options,
+    templates: &[Templates],
+) -> Result<(Vec<Artifact>, Option<Context>), TemplateError> {
+    let (mut list, mut last) = (Vec::new(), None);
+    for templates in templates {
+        let gaps = match (templates.format, options.gaps) {
+            (Some(Format::Print), gaps) | (None, gaps @ Gaps::Gathered) => gaps,
+            (Some(Format::Markdown | Format::Html) | None, _) => Gaps::InPlace,
+        };
+        let context = docs_gen::context(system, &Options { gaps, ..options.clone() });
         for page in templates.print(&context)? {
-            let path = format!("{root}{stem}/{}", page.path);
+            let path = format!("{folder}/{}", page.path);
             list.push(Artifact { path, bytes: page.text.into_bytes(), purpose: String::new() });
         }
+        last = Some(context);
     }
     let index = docs_gen::table_index(system, options);
     if !index.tables.is_empty() {
-        let path = format!("{root}{stem}/tables.json");
+        let path = format!("{folder}/tables.json");
         let purpose = "what takes the place of each printed table".to_owned();
         list.push(Artifact { path, bytes: json(&index), purpose });
     }
-    Ok(list)
+    Ok((list, last))
 }
 
 /// What templates see, as JSON.
@@ -58,4 +152,25 @@ fn json(value: &impl Serialize) -> Vec<u8> {
     let mut text = serde_json::to_vec_pretty(value).unwrap_or_default();
     text.push(b'\n');
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_checksum_is_that_of_other_programs() {
+        assert_eq!((crc32("123456789".bytes()), crc32("".bytes())), (0xCBF4_3926, 0));
+    }
+
+    #[test]
+    fn the_origin_is_the_specification_with_its_parts() {
+        let mut sources = SourceMap::new();
+        sources.add("folder/lamp.od.yaml", "1234");
+        sources.add("folder/part.yaml", "56789");
+        assert_eq!(
+            origin(&sources),
+            Origin { file: "lamp.od.yaml".to_owned(), checksum: "CBF43926".to_owned() }
+        );
+    }
 }

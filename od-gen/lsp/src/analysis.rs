@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock, OnceLock};
 
 use lsp_types::{Range, Uri};
 use od_readers::remark;
-use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::eds::is_eds;
 use od_spec::model::{System, SystemSource};
 use od_spec::names::{DeviceKeys, Names};
@@ -13,14 +13,11 @@ use od_spec::plant::{Settled, is_plant, plant};
 use od_spec::source::{FileId, SourceMap, Span};
 use od_spec::xdd::is_xdd;
 use od_spec::yaml::{self, Node};
-use od_spec::{
-    Compiled, Loader as _, NodeOfFile, add_source, assign_layers, compile, is_parameter_file,
-    is_specification, parameter_file,
-};
+use od_spec::{Compiled, OnDevice, add_source, compile, is_parameter_file, is_specification, on_device};
 
 use super::buffer::Buffer;
 use super::overlay::{Buffers, Overlay, bytes_of};
-use super::place::{Place, beside};
+use super::place::Place;
 use super::position::{Encoding, Lines};
 use super::trees::Trees;
 use super::unread;
@@ -180,10 +177,7 @@ impl Analysis {
                 }
             }
             Kind::Plant => self.read_plant(root, loader),
-            Kind::Parameters => {
-                self.read_parameters(root, loader);
-                self.diagnostics.sort();
-            }
+            Kind::Parameters => self.read_parameters(root, loader),
             Kind::Foreign => {}
         }
     }
@@ -208,6 +202,12 @@ impl Analysis {
             self.described[at].devices.insert(device.key.clone(), device.dictionary.key.clone());
         }
         for file in read.files {
+            let of_name = self.sources.files().find(|(_, source)| source.name() == file.name);
+            if let Some((root, _)) = of_name
+                && self.described.iter().all(|one| one.root != root)
+            {
+                self.described.push(Described::new(root, None, DeviceKeys::new()));
+            }
             // A foreign EDS is checked where it is opened.
             if file.source != Some(SystemSource::Eds) {
                 self.diagnostics.append(file.diagnostics);
@@ -221,70 +221,14 @@ impl Analysis {
         self.diagnostics.sort();
     }
 
-    /// A parameter file, and its values on the device that its specification describes.
+    /// A parameter file, and its values on the device that it names.
     fn read_parameters(&mut self, root: FileId, loader: &mut Overlay<'_>) {
-        let Some(file) = parameter_file(&self.sources, root, &mut self.diagnostics) else { return };
-        let Some(spec) = &file.spec else { return };
-        let from = self.sources.file(root).name().to_owned();
-        let unreadable = |reason: &str| {
-            Diagnostic::new(codes::UNREADABLE, spec.span, format!("cannot read `{}`: {reason}", spec.value))
-                .help("name a specification, EDS or DCF relative to this file")
-        };
-        let loaded = loader.load(&spec.value, &from).map_err(|reason| unreadable(&reason));
-        let added = loaded.and_then(|bytes| {
-            let name = beside(&from, &spec.value);
-            add_source(&mut self.sources, &name, bytes).map_err(|refused| unreadable(&refused.message))
-        });
-        let described = match added {
-            Ok(described) => described,
-            Err(diagnostic) => return self.diagnostics.push(diagnostic),
-        };
-        let compiled = compile(&mut self.sources, described, loader);
-        let system = compiled.system.map(Arc::new);
-        if Kind::of(&spec.value, self.sources.file(described).text()) == Kind::Specification {
-            self.diagnostics.append(compiled.diagnostics);
-        }
-        let mut devices = DeviceKeys::new();
-        if let Some(system) = &system {
-            let named = file.device.as_ref().and_then(|key| system.device(&key.value));
-            let device = match (&file.device, system.devices.as_slice()) {
-                (None, [only]) => Some(only),
-                _ => named,
-            };
-            match (device, &file.device, system.devices.first()) {
-                (Some(device), ..) => {
-                    let of_file = compiled.node.as_ref();
-                    let stated = file.node.map(|node| node.value).or_else(|| of_file?.stated_id());
-                    // Without a node-ID, the values are those of any node.
-                    let node = stated.unwrap_or(1);
-                    let mut commissioning = NodeOfFile::or_defaults(of_file, device, node);
-                    file.settle(device, &mut commissioning, &mut self.diagnostics);
-                    let configured = commissioning.configured(device);
-                    assign_layers(
-                        system,
-                        &configured,
-                        node,
-                        std::slice::from_ref(&file.layer),
-                        &mut self.diagnostics,
-                    );
-                    devices.insert(String::new(), device.key.clone());
-                }
-                (None, Some(_), Some(first)) => file.check_device(system, first, &mut self.diagnostics),
-                (None, None, Some(_)) => {
-                    let keys: Vec<&str> = system.devices.iter().map(|device| device.key.as_str()).collect();
-                    self.diagnostics.push(
-                        Diagnostic::new(
-                            codes::UNKNOWN_DEVICE,
-                            spec.span,
-                            format!("`{}` describes several devices", spec.value),
-                        )
-                        .help(format!("add `device:` with one of {}", keys.join(", "))),
-                    );
-                }
-                (None, _, None) => {}
-            }
-        }
-        self.described = vec![Described::new(described, system, devices)];
+        let OnDevice { spec, system, device, diagnostics, .. } = on_device(&mut self.sources, root, loader);
+        self.diagnostics = diagnostics;
+        // In a parameter file, the device has no key.
+        let devices = device.map(|key| (String::new(), key)).into_iter().collect();
+        self.described =
+            spec.map(|file| Described::new(file, system.map(Arc::new), devices)).into_iter().collect();
     }
 
     fn note_files(&mut self, uri: impl Fn(&Place) -> Option<Uri>) {
@@ -323,11 +267,17 @@ impl Analysis {
         self.place(self.root?)
     }
 
-    /// Whether it is a parameter file or a plant, and names the specification at a place.
+    /// Whether it is a parameter file or a plant, and names the specification at a place; while it is not valid YAML, whether
+    /// the name of that file is in it.
     pub(super) fn is_about_nodes_of(&self, spec: &Place) -> bool {
+        let may_be = |root: FileId| {
+            let (text, path) = (self.sources.file(root).text(), spec.name());
+            self.tree(root).is_none() && path.rsplit('/').next().is_some_and(|name| text.contains(name))
+        };
         match self.kind {
             Kind::Plant | Kind::Parameters => {
                 self.described.iter().any(|one| self.place(one.root) == Some(spec))
+                    || self.root.is_some_and(may_be)
             }
             Kind::Specification | Kind::Eds | Kind::Xdd | Kind::Foreign => false,
         }

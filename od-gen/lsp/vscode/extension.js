@@ -5,7 +5,7 @@ const { execFile } = require("child_process");
 const fs = require("fs");
 const os = require("os");
 const path = require("path");
-const { commands, env, Location, Position, Range, Uri, ViewColumn, window, workspace } = require("vscode");
+const { commands, env, EventEmitter, Location, Position, Range, Uri, ViewColumn, window, workspace } = require("vscode");
 const { isOurs } = require("./content");
 
 let client;
@@ -133,7 +133,8 @@ async function attempt(context, action) {
     if (error.isMissing) {
       complain(context);
     } else {
-      window.showErrorMessage(error.message.split("\n")[0]);
+      const lines = error.message.split("\n");
+      window.showErrorMessage(lines.find((line) => line.startsWith("error")) ?? lines[0]);
     }
   }
 }
@@ -146,29 +147,41 @@ function below(folder) {
   });
 }
 
+/** Texts that are shown and belong to no file, by their URI. */
+const shown = new Map();
+const SCHEME = "odgen-preview";
+const changed = new EventEmitter();
+
+/** Shows a text next to the editor. It cannot be edited, and asks for nothing when it is closed. */
+async function beside(name, text) {
+  const uri = Uri.from({ scheme: SCHEME, path: `/${name}` });
+  shown.set(uri.toString(), text);
+  changed.fire(uri);
+  await window.showTextDocument(await workspace.openTextDocument(uri), { viewColumn: ViewColumn.Beside, preview: true });
+}
+
+async function page(name, text) {
+  const panel = window.createWebviewPanel("odgen.page", name, ViewColumn.Beside, { enableScripts: true });
+  panel.webview.html = text;
+}
+
 /** Builds into a folder that is thrown away, and shows one of the files. */
 async function preview(context, args, extension, show) {
   await attempt(context, async (file) => {
     const folder = fs.mkdtempSync(path.join(os.tmpdir(), "odgen-"));
-    await run(context, ["build", ...args, "--out", folder, file], path.dirname(file));
-    const files = below(folder).filter((one) => one.endsWith(extension));
-    const names = files.map((one) => path.basename(one));
-    const name = names.length > 1 ? await window.showQuickPick(names) : names[0];
-    if (name) {
-      await show(files[names.indexOf(name)]);
+    try {
+      await run(context, ["build", ...args, "--out", folder, file], path.dirname(file));
+      const made = below(folder).filter((one) => one.endsWith(extension) && path.basename(one) !== "index.html");
+      const names = made.map((one) => path.relative(folder, one));
+      const name = names.length > 1 ? await window.showQuickPick(names) : names[0];
+      if (name) {
+        await show(path.basename(name), fs.readFileSync(path.join(folder, name), "utf8"));
+      }
+    } finally {
+      fs.rmSync(folder, { recursive: true, force: true });
     }
   });
 }
-
-const beside = async (file) => {
-  const document = await workspace.openTextDocument(Uri.file(file));
-  await window.showTextDocument(document, { viewColumn: ViewColumn.Beside, preview: true });
-};
-
-const page = async (file) => {
-  const panel = window.createWebviewPanel("odgen.page", path.basename(file), ViewColumn.Beside, { enableScripts: true });
-  panel.webview.html = fs.readFileSync(file, "utf8");
-};
 
 async function diff(context) {
   await attempt(context, async (file) => {
@@ -177,22 +190,23 @@ async function diff(context) {
     if (!chosen) {
       return;
     }
+    const earlier = chosen[0].fsPath;
     // Exit code 1 reports a difference.
-    const text = await run(context, ["diff", chosen[0].fsPath, file]).catch((error) => {
+    const text = await run(context, ["diff", earlier, file]).catch((error) => {
       if (error.code === 1 && error.stdout) {
         return error.stdout;
       }
       throw error;
     });
-    const document = await workspace.openTextDocument({ content: text, language: "plaintext" });
-    await window.showTextDocument(document, { viewColumn: ViewColumn.Beside, preview: true });
+    await beside(`${path.basename(earlier)} → ${path.basename(file)}.txt`, text);
   });
 }
 
 async function build(context) {
   await attempt(context, async (file) => {
     const text = await run(context, ["build", file], path.dirname(file));
-    window.showInformationMessage(text.trim().split("\n").pop() || "The files are up to date.");
+    const counted = text.split("\n").find((line) => /^ *\d+ files? changed/.test(line));
+    window.showInformationMessage(counted ? counted.trim() : "The files are up to date.");
   });
 }
 
@@ -216,7 +230,9 @@ exports.activate = async (context) => {
   command("odgen.showPlaces", showPlaces);
   const mark = (editor) =>
     commands.executeCommand("setContext", "odgen.isOurs", Boolean(editor && isForUs(editor.document)));
+  const provider = { onDidChange: changed.event, provideTextDocumentContent: (uri) => shown.get(uri.toString()) };
   context.subscriptions.push(
+    workspace.registerTextDocumentContentProvider(SCHEME, provider),
     workspace.onDidOpenTextDocument((document) => look(context, document)),
     workspace.onDidSaveTextDocument((document) => look(context, document)),
     workspace.onDidChangeConfiguration((event) => event.affectsConfiguration("odgen") && restart(context)),

@@ -24,6 +24,11 @@ impl Group {
         Self { about, constants }
     }
 
+    /// The names of the constants.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.constants.iter().map(|constant| constant.name.as_str())
+    }
+
     pub(super) fn print(&self, text: &mut Text) {
         text.comment(&self.about);
         text.declarations(&self.constants);

@@ -25,11 +25,12 @@ mod quantities;
 mod tests;
 mod text;
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use od_gen::Artifact;
 use od_spec::eds::GENERATED;
-use od_spec::model::{Dictionary, System};
+use od_spec::model::{Dictionary, EntryId, System};
 use od_spec::wording::Language;
 
 use self::device::Device;
@@ -140,17 +141,50 @@ pub fn write(system: &System, device: &Dictionary, node: Option<u8>, language: O
     written(Device::new(system, device, node, texts, Language::of(texts)))
 }
 
+/// The constant with the index of each entry, such as `PMC_STATUSWORD_INDEX`.
+pub fn index_names(system: &System, device: &Dictionary) -> BTreeMap<EntryId, String> {
+    let texts = system.language();
+    let mut device = Device::new(system, device, None, texts, Language::of(texts));
+    let groups = Parts::named(&mut device).of_entries;
+    let ids = device.dictionary.entries().map(|(id, _, _)| id);
+    // The index is the first constant of each entry.
+    ids.zip(groups).filter_map(|(id, group)| Some((id, group.names().next()?.to_owned()))).collect()
+}
+
+/// Everything in the files of a device, with its names.
+struct Parts<'a> {
+    bits: Vec<bits::Bits<'a>>,
+    machines: Vec<machines::Machine<'a>>,
+    pdos: Vec<pdos::PlannedPdo<'a>>,
+    quantities: Vec<quantities::Quantity<'a>>,
+    of_pdos: Vec<constants::Group>,
+    of_errors: Option<constants::Group>,
+    of_entries: Vec<constants::Group>,
+    of_enums: Vec<constants::Group>,
+    enums: Vec<enums::Enum>,
+    left_out: Vec<LeftOut>,
+}
+
+impl<'a> Parts<'a> {
+    /// Gives all names, in this order: of two that would be the same, the later one gets a number.
+    fn named(device: &mut Device<'a>) -> Self {
+        let mut left_out = Vec::new();
+        let bits = bits::bits(device);
+        let machines = machines::machines(device);
+        let pdos = pdos::pdos(device, &mut left_out);
+        let quantities = quantities::quantities(device, &mut left_out);
+        let of_pdos = pdos::constants(device);
+        let of_errors = constants::of_errors(device);
+        let of_entries = constants::of_entries(device);
+        let of_enums = constants::of_enums(device);
+        let enums = enums::enums(device, &machines);
+        Self { bits, machines, pdos, quantities, of_pdos, of_errors, of_entries, of_enums, enums, left_out }
+    }
+}
+
 fn written(mut device: Device<'_>) -> Written {
-    let mut left_out = Vec::new();
-    let bits = bits::bits(&mut device);
-    let machines = machines::machines(&mut device);
-    let pdos = pdos::pdos(&mut device, &mut left_out);
-    let quantities = quantities::quantities(&mut device, &mut left_out);
-    let of_pdos = pdos::constants(&mut device);
-    let of_errors = constants::of_errors(&mut device);
-    let of_entries = constants::of_entries(&mut device);
-    let of_enums = constants::of_enums(&mut device);
-    let enums = enums::enums(&mut device, &machines);
+    let Parts { bits, machines, pdos, quantities, of_pdos, of_errors, of_entries, of_enums, enums, left_out } =
+        Parts::named(&mut device);
     let device = &device;
 
     let mut lists = head(device, Phrase::ConstantsFile);

@@ -2,7 +2,9 @@
 
 use super::{BitRange, ConditionDecl, Name, Words};
 use crate::keys::entry_keys;
-use crate::model::{Access, AccessRight, Category, Fact, Facts, PdoMapping, Statement, Storage, Text};
+use crate::model::{
+    Access, AccessRight, Category, Fact, Facts, PdoMapping, Phrases, Statement, Storage, Text,
+};
 use crate::source::{FileId, Span, Spanned};
 
 /// How far a key of an entry reaches that is written at an object with elements or members.

@@ -17,8 +17,8 @@ use crate::keys::{
     unit_keys, vendor_keys,
 };
 use crate::model::{
-    Access, BitPattern, BitUsage, ByDevice, Date, DateTime, Direction, Edge, EditorNotes, ErratumKind,
-    ErrorKind, Index, Outside, PdoMapping, ProseKind, Ratio, Rounding, Series, SubIndex, Text,
+    Access, Basis, BitPattern, BitUsage, ByDevice, Date, DateTime, Direction, Edge, EditorNotes, ErratumKind,
+    ErrorKind, Fact, Index, Outside, PdoMapping, Phrases, ProseKind, Ratio, Rounding, Series, SubIndex, Text,
 };
 use crate::source::{FileId, Span, Spanned};
 
@@ -296,6 +296,7 @@ pub(crate) struct TypeDecl {
     pub name: Name,
     pub base: Option<Name>,
     pub about: Words,
+    pub gap: Words,
     pub values: Option<Vec<ValueDecl>>,
     pub bits: Option<Vec<BitDecl>>,
     pub rest: Option<Spanned<BitUsage>>,
@@ -307,6 +308,8 @@ pub(crate) struct ValueDecl {
     pub name: Option<Name>,
     pub supported: Option<Spanned<bool>>,
     pub about: Words,
+    pub gap: Words,
+    pub search: Option<Spanned<Phrases>>,
 }
 
 #[derive(Debug)]
@@ -315,6 +318,8 @@ pub(crate) struct BitDecl {
     pub usage: BitUsage,
     pub name: Option<Name>,
     pub about: Words,
+    pub gap: Words,
+    pub search: Option<Spanned<Phrases>>,
     pub errors: Vec<Spanned<i128>>,
     pub mnemonic: Option<Name>,
     pub clamp: Option<Name>,
@@ -338,6 +343,7 @@ pub(crate) struct ModeBitDecl {
     pub mode: Name,
     pub name: Option<Name>,
     pub about: Words,
+    pub gap: Words,
 }
 
 #[derive(Debug)]
@@ -531,6 +537,12 @@ pub(crate) struct PartDecl {
     pub number: Option<Spanned<i128>>,
     pub title: Words,
     pub figure: Option<Spanned<FigureDecl>>,
+    /// The objects whose warnings it says.
+    pub warns_for: Vec<Spanned<Index>>,
+    /// The columns that are printed.
+    pub columns: Vec<Name>,
+    /// The numbers of its rows in the order as printed.
+    pub order: Option<Spanned<Vec<Spanned<i128>>>>,
     /// The keys that say what it is; exactly one is right.
     pub contents: Vec<Spanned<ContentDecl>>,
 }

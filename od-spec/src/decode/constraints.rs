@@ -95,7 +95,13 @@ fn of_number(decl: &ConstraintDecl, number: u32) -> ConstraintDecl {
         };
         Some(Spanned::new(of_number, condition.span))
     };
-    let about: &Words = &decl.about;
+    let words = |words: &Words| {
+        let words = words.as_ref()?;
+        let texts: Vec<(&str, String)> =
+            words.value.iter().map(|(language, text)| (language, said(text))).collect();
+        let texts = texts.iter().map(|(language, text)| (*language, text.as_str()));
+        Some(Spanned::new(Text::new(texts), words.span))
+    };
     ConstraintDecl {
         name: Spanned::new(said(&decl.name.value), decl.name.span),
         series: Some(Series { name: decl.name.value.clone(), number }),
@@ -103,11 +109,7 @@ fn of_number(decl: &ConstraintDecl, number: u32) -> ConstraintDecl {
         require: condition(&decl.require),
         when: condition(&decl.when),
         numbers: Vec::new(),
-        about: about.as_ref().map(|about| {
-            let texts: Vec<(&str, String)> =
-                about.value.iter().map(|(language, text)| (language, said(text))).collect();
-            let texts = texts.iter().map(|(language, text)| (*language, text.as_str()));
-            Spanned::new(Text::new(texts), about.span)
-        }),
+        about: words(&decl.about),
+        gap: words(&decl.gap),
     }
 }

@@ -110,7 +110,7 @@ mod tests {
 
     const EVERY_KEY: &str = "{name: n, identifier: i, type: unsigned8, unit: volt, access: rw, pdo: receive, default: 1, min: 0, \
         max: 9, special: {255: off}, stored: application, category: optional, since: 1.04, writable-when: 0x2000 == 0, \
-        bit-errors: {0: 0x1000}, capacity: 4, eds: {flags: [no-write]}, warning: text, about: text}";
+        bit-errors: {0: 0x1000}, capacity: 4, eds: {flags: [no-write]}, warning: text, about: text, gap: text, search: {en: word}}";
 
     fn words(facts: &Facts) -> Vec<&'static str> {
         facts.said_by(Author::Maker).map(Fact::word).collect()

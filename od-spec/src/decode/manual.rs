@@ -99,6 +99,7 @@ fn part(r: Reader<'_>, diagnostics: &mut Diagnostics) -> PartDecl {
             "steps" => ContentDecl::Prose(ProseKind::Steps, lines()),
             "list" => ContentDecl::Prose(ProseKind::List, lines()),
             "formula" => ContentDecl::Prose(ProseKind::Formula, lines()),
+            "gap" => ContentDecl::Prose(ProseKind::Gap, lines()),
             "overview" => ContentDecl::Overview(r.indices(key_name)),
             "objects" => ContentDecl::Objects(r.indices(key_name)),
             "bits" => ContentDecl::Bits { named_type: value.short("type"), masks: value.integer("masks") },
@@ -144,6 +145,9 @@ fn part(r: Reader<'_>, diagnostics: &mut Diagnostics) -> PartDecl {
     PartDecl {
         number: r.integer("number"),
         title: r.words("title"),
+        warns_for: r.indices("for"),
+        columns: r.texts("columns"),
+        order: r.child("order").map(|order| Spanned::new(r.integers("order"), order.node.span)),
         figure: r.keyed("figure").map(|(key, figure)| Spanned::new(figure_of(figure), key)),
         contents: contents.collect(),
     }

@@ -5,8 +5,8 @@ use crate::diag::Diagnostics;
 use crate::expr::Expr;
 use crate::keys::Keys;
 use crate::model::{
-    Access, AccessRight, BitPattern, ByDevice, Category, Date, DateTime, ErratumKind, ErrorKind, Index,
-    PdoMapping, Ratio, Storage, Text,
+    Access, AccessRight, Basis, BitPattern, ByDevice, Category, Date, DateTime, ErratumKind, ErrorKind, Fact,
+    Index, PdoMapping, Phrases, Ratio, Storage, Text,
 };
 use crate::name_pattern::NamePattern;
 use crate::scalar;
@@ -160,6 +160,8 @@ scalars! {
     Storage = Storage::from_word,
     Category = Category::from_word,
     ErratumKind = ErratumKind::from_word,
+    Fact = Fact::from_word,
+    Basis = Basis::from_word,
     ErrorKind = ErrorKind::from_word,
     ByDevice = ByDevice::from_word,
     MappingKind = MappingKind::from_word,
@@ -176,6 +178,18 @@ scalars! {
 impl FromNode for Text {
     fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
         reader.translated()
+    }
+}
+
+impl FromNode for Phrases {
+    fn from_node(reader: Reader<'_>, _: &mut Diagnostics) -> Option<Self> {
+        let phrases = |node: &Node| {
+            let phrases = node.one_or_more().iter().filter_map(Node::text);
+            phrases.map(|phrase| phrase.value.trim().to_owned()).collect()
+        };
+        Some(Self::new(
+            reader.pairs().map(|(language, list)| (language.value.to_owned(), phrases(list.node))),
+        ))
     }
 }
 

@@ -39,6 +39,7 @@ pub(super) fn named_type(name: Spanned<&str>, r: Reader<'_>, diagnostics: &mut D
         name: owned(name),
         base: r.text("base"),
         about: r.words("about"),
+        gap: r.words("gap"),
         values: has("values").then(|| values(r, diagnostics)),
         bits: has("bits")
             .then(|| r.entries("bits").filter_map(|(key, r)| bit(key, r, diagnostics)).collect()),
@@ -54,6 +55,8 @@ fn values(r: Reader<'_>, diagnostics: &mut Diagnostics) -> Vec<ValueDecl> {
             name: r.short("name"),
             supported: r.yes_no("supported"),
             about: r.words("about"),
+            gap: r.words("gap"),
+            search: Field::read(r, "search", diagnostics),
         })
         .collect()
 }
@@ -76,6 +79,8 @@ fn bit(key: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Opti
         usage,
         name: if r.node.text().is_some() && usage != BitUsage::Used { None } else { name },
         about: r.words("about"),
+        gap: r.words("gap"),
+        search: Field::read(r, "search", diagnostics),
         errors: r.items("error").filter_map(|item| item.scalar(lexical::error_code)).collect(),
         mnemonic: r.text("mnemonic"),
         clamp: r.text("clamp"),
@@ -89,6 +94,7 @@ fn bit(key: Spanned<&str>, r: Reader<'_>, diagnostics: &mut Diagnostics) -> Opti
                 mode: owned(mode),
                 name: r.short("name"),
                 about: r.words("about"),
+                gap: r.words("gap"),
             })
             .collect(),
     })

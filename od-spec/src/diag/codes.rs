@@ -75,7 +75,7 @@ codes! {
     PART_ALONE Error "OD0119" "a part without its specification":
         "A file with `part-of:` holds sections of another file; units, types and devices that it refers to may be in that file. Compile that file, which names its parts under `parts:`. `odgen` does so by itself when it is given a part and finds the specification."
     NO_SPECIFICATION Error "OD0120" "a parameter or plant file in the place of a specification":
-        "A file that begins with `od-parameters:` says how one device is set up, one that begins with `od-plant:` which nodes a plant has. Neither describes a device: both are read together with the specification that does. `odgen dcf SPEC --params FILE --explain` checks a parameter file without writing anything, `odgen plant check FILE` a plant. `odgen fmt` lays out all three."
+        "A file that begins with `od-parameters:` says how one device is set up, one that begins with `od-plant:` which nodes a plant has. Neither describes a device: both are read together with the specification that does. `odgen check FILE` checks a parameter file that names its specification (`spec:`), `odgen dcf SPEC --params FILE --explain` any other one, `odgen plant check FILE` a plant. `odgen fmt` lays out all three."
     OTHER_BUS Error "OD0121" "a file of something else than CANopen":
         "Other fieldbuses have files of the same names: an EDS of EtherNet/IP or DeviceNet has the sections [File] and [Device], an XDD of POWERLINK a body for its own network. Nothing is read of them, written from them or fixed in them. A file that is named as an EDS but has no section is not an EDS either."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
@@ -289,7 +289,7 @@ codes! {
             "revision: {number: \"1.1\", date: 2020-05-27}\nhistory: [{number: \"1.0\", date: 2019-02-01}, {number: \"1.1\", date: 2020-05-27}]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro}"
         )]
     STACK_DIFFERS Warning "OD0860" "something that the stack wants set up":
-        "CANopenNode has a configuration of its own, and treats some things differently from the dictionary. The files are made and compile; the message says what to do in the project that takes them, or what is different on the bus."
+        "CANopenNode treats some things differently from the dictionary. The files are made and compile, with the configuration in `CO_driver_custom.h`; the message says what to do in the project that takes them, or what is different on the bus. What is the same for several entries is reported once, at the first."
     COB_ID_OF_OTHER_NODE Warning "OD0861" "a COB-ID of the node-ID that a file is for":
         "A DCF or XDC is the configuration of one node, and a command uses it for another node-ID. Values that the node-ID formula of their default gives follow the node-ID. This COB-ID does not: the file has a number without a formula, and it is one of those that CiA 301 reserves for the first node-ID (table 34). If both nodes are on one bus, both send the same message, or receive what is meant for the other. Many tools resolve `$NODEID` when they write a DCF, so that its defaults are numbers as well: make the file of another node from the EDS or the specification. A COB-ID that is meant like this can be set on purpose."
     NAMED_TWICE Warning "OD0894" "a name that is listed twice":
@@ -303,7 +303,7 @@ codes! {
     NOT_IN_FIRMWARE Error "OD0904" "something that generated code cannot do":
         "Generated code computes with 64-bit integers, addresses entries with 16-bit numbers and their values with 24 bits, and is about at least one object. The message names the part of the specification that needs more."
     STACK_REFUSES Error "OD0905" "a device that the stack does not take":
-        "CANopenNode does not compile, or does not do what the dictionary says, without certain objects: 1000h, 1001h and 1017h, and a mapping parameter object for each communication parameter object of a PDO, beginning with PDO 1. A dictionary without them would fail somewhere in the stack's own files; so none is made. Add the object, for example with `features:` of the library `cia301`."
+        "CANopenNode does not compile, does not start, or does not do what the dictionary says, without certain objects: 1000h, 1001h and 1017h, 1200h where there are more SDO servers, and a mapping parameter object for each communication parameter object of a PDO, beginning with PDO 1. It also starts only if the objects that it reads have the types of CiA 301. A dictionary without them would fail somewhere in the stack's own files; so none is made. Add the object, for example with `features:` of the library `cia301`."
     XDD_SYNTAX Error "XDD101" "a file is not well-formed XML":
         "The XML reader stopped at the marked place; nothing of the file was read. Frequent causes: an element that is not closed, `&` or `<` in a text where `&amp;` or `&lt;` belongs, a file that is cut off."
         [Example::xdd(

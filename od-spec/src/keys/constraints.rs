@@ -11,6 +11,7 @@ macro_rules! constraint_keys {
             "when": Shape::Condition => when: Option<Spanned<ConditionDecl>>, "the condition applies only while this one is true", "\"0x606A == 0\"";
             "n": Shape::OneOrMore(&Shape::Numbers) => numbers: Vec<Spanned<NumberRange>>, "makes one constraint for each of these numbers; `{n}` in name, conditions and `about` is the number", "0..11";
             "about": Shape::Words => about: Words, "the reason";
+            "gap": Shape::Words => gap: Words, "what the printed manual leaves open about it";
         } }
     };
 }

@@ -10,6 +10,7 @@ macro_rules! device_keys {
         $then! { $($head)* {
             "name" required: Shape::Text => name: Option<Name>, "full name";
             "about": Shape::Words => about: Words, "what the device does";
+            "gap": Shape::Words => gap: Words, "what the printed manual leaves open about it";
             "product-name": Shape::HeaderText => product_name: Option<Name>, "product name in the EDS; the device's name unless given";
             "product": U32 => product: Option<Spanned<i128>>, "product code (1018h.2)";
             "product-revision": U32 => product_revision: Option<Spanned<i128>>, "product revision (1018h.3): upper half major, lower half minor", "0x0001_0002";

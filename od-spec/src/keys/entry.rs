@@ -1,6 +1,6 @@
 //! Entries.
 
-use super::shape::{Key, KeyKind, Keys, NameOf, Shape};
+use super::shape::{Key, KeyKind, Keys, NameOf, PHRASES, Shape};
 use super::table::{joined, key_list, keys};
 use crate::model::{Access, Category, PdoMapping, Storage};
 
@@ -39,6 +39,8 @@ macro_rules! entry_keys {
                 "eds": Shape::Map(&ENTRY_EDS_KEYS) => eds: EdsDecl, Eds, Entries, "what the EDS shows, where the policy of the device does not fit", "{flags: [no-write]}", sub0 "what the EDS shows";
                 "warning": Shape::Words => warning: Text, Warning, Object, "danger for persons, machine or data that comes from it", "The drive moves at once.";
                 "about": Shape::Words => about: Text, About, Object, "meaning", sub0 "meaning";
+                "gap": Shape::Words => gap: Text, Gap, Object, "what the printed manual leaves open about it", "Whether 0 switches it off is not stated.";
+                "search": PHRASES => search: Phrases, Search, Object, "words and phrases by which readers look for it, by language, where its name and texts have others", "{en: [pitch angle, blade angle], de: Blattwinkel}";
             }
         }
     };

@@ -1,6 +1,6 @@
 //! Error codes.
 
-use super::shape::{DEVICES, Key, Keys, NameOf, Shape};
+use super::shape::{DEVICES, Key, Keys, NameOf, PHRASES, Shape};
 use super::table::keys;
 use crate::model::ErrorKind;
 
@@ -17,6 +17,8 @@ macro_rules! error_keys {
             "register": Shape::OneOrMore(&Shape::Choice(ErrorKind::WORDS)) => register: Vec<Spanned<ErrorKind>>, "kinds of error that it sets in 1001h, in addition to `generic`, which every error sets; that of its class unless given", "[current, temperature]";
             "reset": Shape::Words => reset: Words, "what resets it; that of the device's `any-error` unless given", "switch the device off and on";
             "about": Shape::Words => about: Words, "more about it";
+            "gap": Shape::Words => gap: Words, "what the printed manual leaves open about it";
+            "search": PHRASES => search: Option<Spanned<Phrases>>, "words and phrases by which readers look for it, by language, where its name and texts have others", "{en: DC link too high}";
         } }
     };
 }

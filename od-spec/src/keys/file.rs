@@ -84,6 +84,8 @@ macro_rules! source_keys {
         $then! { $($head)* {
             "title" required: Shape::Text => title: Option<Name>, "title of the manual";
             "edition": Shape::Text => edition: Option<Name>, "edition, as printed", "\"issue 1.09, English\"";
+            "subtitle": Shape::Words => subtitle: Words, "what it is about, below the title on the cover", "Programming and parameters";
+            "address": Shape::Words => address: Words, "the maker's address on the cover; each line of the value is one", "\"Main Street 1, Springfield\"";
             "about": Shape::Words => about: Words, "more about it";
         } }
     };

@@ -29,6 +29,7 @@ macro_rules! state_keys {
         $then! { $($head)* {
             "pattern" inherited: Shape::Pattern => pattern: Option<Spanned<BitPattern>>, "bits of the status entry, most significant first; `x` either", "\"xxxx xxxx x01x 0001\"";
             "about": Shape::Words => about: Words, "meaning";
+            "gap": Shape::Words => gap: Words, "what the printed manual leaves open about it";
         } }
     };
 }
@@ -64,6 +65,7 @@ macro_rules! command_keys {
             "send": U32 => send: Option<Spanned<i128>>, "a value that gives the command", "0x0006";
             "transitions": Shape::List(&U8) => transitions: Vec<Spanned<i128>>, "transitions it causes", "[2, 6, 8]";
             "about": Shape::Words => about: Words, "meaning";
+            "gap": Shape::Words => gap: Words, "what the printed manual leaves open about it";
         } }
     };
 }

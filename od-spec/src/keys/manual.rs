@@ -2,7 +2,7 @@
 
 use super::shape::{DEVICES, INDICES, Key, Keys, NameOf, Shape};
 use super::table::keys;
-use crate::model::{Direction, ErratumKind};
+use crate::model::{Basis, Direction, ErratumKind, Unprinted};
 
 macro_rules! erratum_keys {
     ($then:ident $($head:tt)*) => {
@@ -14,6 +14,9 @@ macro_rules! erratum_keys {
             "prints" required: Shape::Words => prints: Words, "what the manual prints", "3003h";
             "reads" required: Shape::Words => reads: Words, "what the specification says", "3004h";
             "because" required: Shape::Words => because: Words, "the reason";
+            "facts": Shape::OneOrMore(&Shape::Choice(Unprinted::FACTS)) => facts: Vec<Spanned<Fact>>, "of a `gap`: facts of `at`, or of the devices without `at`, that the manual does not print; documents mark them", "[default, pdo]";
+            "of": Shape::OneOrMore(&Shape::Integer(-0x8000_0000_0000_0000, 0xFFFF_FFFF_FFFF_FFFF)) => of: Vec<Spanned<i128>>, "values or bits of the type of `at` that it is about; all unless given", "[17, 18]";
+            "basis": Shape::Choice(Basis::WORDS) => basis: Option<Spanned<Basis>>, "where the facts come from instead";
         } }
     };
 }
@@ -21,7 +24,7 @@ pub(crate) use erratum_keys;
 
 erratum_keys! { keys
     /// An erratum.
-    ERRATUM = "an erratum"
+    ERRATUM = "an erratum" needs [Together(["facts", "basis"])]
 }
 
 keys! {
@@ -36,19 +39,23 @@ keys! {
 keys! {
     /// A text or table of the manual.
     CONTENT = "a text or table" needs [One([
-        "text", "note", "warning", "steps", "list", "formula", "overview", "objects", "bits", "values", "errors",
+        "text", "note", "warning", "steps", "list", "formula", "gap", "overview", "objects", "bits", "values", "errors",
         "reactions", "states", "transitions", "commands", "ladder", "timing", "hysteresis", "flow", "axis", "pdos",
         "rows", "glossary", "history"
     ])] {
         "text": Shape::Words, "paragraphs; each line of the value is one", "The PMC controls the axis.";
         "note": Shape::Words, "paragraphs that are highlighted", "The value is lost at power-off.";
         "warning": Shape::Words, "paragraphs about a danger", "The drive moves at once.";
+        "for": INDICES, "objects whose own warnings a `warning` says in full: the tables of its section do not repeat them, and the overview of the warnings lists it with them", "[0x30F1]";
         "steps": Shape::List(&Shape::Words), "actions, one after the other", "[Switch on., Set the mode.]";
         "list": Shape::List(&Shape::Words), "a list without an order", "[position, velocity]";
         "formula": Shape::Words, "a formula; each line of the value is one", "\"power = force · velocity\"";
+        "gap": Shape::Words, "paragraphs about what the printed manual leaves open", "What 0 means is not stated.";
         "number": Shape::Integer(1, 9999), "number of a table, as printed";
         "title": Shape::Words, "caption of a table";
         "figure": Shape::ShortOr(&Shape::Integer(1, 9999), &FIGURE), "number of the picture that the documents draw, as printed", "13";
+        "order": Shape::List(&Shape::Integer(-0x8000_0000_0000_0000, 0xFFFF_FFFF_FFFF_FFFF)), "the rows of `values` or `bits` in the order as printed: each value or first bit once; ascending unless given", "[0, 1, 2, -1]";
+        "columns": Shape::List(&Shape::Text), "columns that the printed table has, by the keys that templates see; `tables.json` names the others as added", "[bit, meaning]";
         "overview": INDICES, "one row per object", "[0x3000, 0x3001]";
         "objects": INDICES, "the objects' entries in detail";
         "bits": Shape::ShortOr(&Shape::NameOf(NameOf::NamedType), &TABLE_BITS), "bits of a named type", "{type: PMM digital inputs, masks: 16}";

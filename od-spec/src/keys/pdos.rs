@@ -132,6 +132,7 @@ macro_rules! pdo_keys {
             "map" required: Shape::List(&Shape::Entries) => map: Vec<Name>, "mapped entries in order, by index or name, or data types as placeholders; `0x2021.1..4` is four of one object", "[statusword, 0x6064, 0x2021.1..4, drive data.error mask]";
             "parameters": Shape::Map(&PDO_PARAMETERS) => parameters: Option<Box<PdoParametersDecl>>, "facts of its parameter objects that differ from those of the other PDOs";
             "about": Shape::Words => about: Words, "meaning";
+            "gap": Shape::Words => gap: Words, "what the printed manual leaves open about it";
         } }
     };
 }

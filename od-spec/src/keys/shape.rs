@@ -230,4 +230,6 @@ pub(super) const CHANNELS_OF_ELEMENT: i128 = 64;
 pub(super) const U8: Shape = Shape::Integer(0, 0xFF);
 pub(super) const U32: Shape = Shape::Integer(0, 0xFFFF_FFFF);
 pub(super) const DEVICES: Shape = Shape::OneOrMore(&Shape::NameOf(NameOf::Device));
+/// Phrases by language.
+pub(super) const PHRASES: Shape = Shape::MapOf(KeyKind::Language, &Shape::OneOrMore(&Shape::Text));
 pub(super) const INDICES: Shape = Shape::List(&Shape::Index);

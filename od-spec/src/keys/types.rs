@@ -1,6 +1,6 @@
 //! Units, enums and bit fields.
 
-use super::shape::{Key, KeyKind, Keys, NameOf, Shape};
+use super::shape::{Key, KeyKind, Keys, NameOf, PHRASES, Shape};
 use super::table::keys;
 
 macro_rules! unit_keys {
@@ -27,6 +27,7 @@ keys! {
     TYPE = "a type" needs [One(["values", "bits"])] {
         "base" required: Shape::NameOf(NameOf::DataType), "data type on the bus", "unsigned8";
         "about": Shape::Words, "meaning";
+        "gap": Shape::Words, "what the printed manual leaves open about it";
         "values": Shape::MapOf(KeyKind::Integer, &Shape::ShortOr(&Shape::Text, &ENUM_VALUE)), "makes it an enum: names by value", "{0: off, 1: on}";
         "bits": Shape::MapOf(KeyKind::Bits, &Shape::ShortOr(&Shape::Text, &BIT)), "makes it a bit field: names by bit or bits; the short forms `reserved` and `unused` mark bits without meaning", "{0: ready, 1..3: mode, 4..7: reserved}";
         "rest": Shape::Choice(&["reserved", "unused"]), "what the bits are that are not listed";
@@ -39,6 +40,8 @@ keys! {
         "name" required: Shape::Text, "name";
         "supported": Shape::YesNo, "whether the device takes or sends it; yes unless given";
         "about": Shape::Words, "meaning";
+        "gap": Shape::Words, "what the printed manual leaves open about it";
+        "search": PHRASES, "words and phrases by which readers look for it, by language, where its name and texts have others", "{en: home without index pulse}";
     }
 }
 
@@ -47,6 +50,8 @@ keys! {
     BIT = "a bit" needs [Any(["name", "reserved", "unused", "modes"])] {
         "name": Shape::Text, "name";
         "about": Shape::Words, "meaning";
+        "gap": Shape::Words, "what the printed manual leaves open about it";
+        "search": PHRASES, "words and phrases by which readers look for it, by language, where its name and texts have others", "{en: clear fault, de: Störung quittieren}";
         "error": Shape::OneOrMore(&Shape::ErrorCode), "error codes that the bit shows", "0x2250";
         "mnemonic": Shape::Text, "short name, as in the register pictures and tables of commands of the manual", "rtso";
         "clamp": Shape::Text, "terminal of the signal", "X13.10";
@@ -65,5 +70,6 @@ keys! {
     MODE_BIT = "a mode-specific bit" {
         "name" required: Shape::Text, "name";
         "about": Shape::Words, "meaning";
+        "gap": Shape::Words, "what the printed manual leaves open about it";
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::{Axis, Date, Devices, Direction, EntryId, Flow, Index, Switch, Text, Timing};
+use super::{Axis, Date, Devices, Direction, EntryId, Fact, Flow, Index, Switch, Text, Timing};
 
 /// The printed manual that a specification represents.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -11,6 +11,10 @@ use super::{Axis, Date, Devices, Direction, EntryId, Flow, Index, Switch, Text, 
 pub struct Document {
     /// Title of the manual.
     pub source: Option<String>,
+    /// What it is about, below its title.
+    pub subtitle: Text,
+    /// The maker's address, in lines.
+    pub address: Text,
     /// More about it.
     pub about: Text,
     /// Issue that the specification holds.
@@ -84,6 +88,8 @@ pub struct Prose {
     pub kind: ProseKind,
     /// The items of a list, or one text; each line of it is a paragraph or formula.
     pub items: Vec<Text>,
+    /// The objects whose own warnings it says in full.
+    pub warns_for: Vec<Index>,
 }
 
 /// How a text of the manual is read.
@@ -101,6 +107,8 @@ pub enum ProseKind {
     List,
     /// Formulas.
     Formula,
+    /// What the manual leaves open.
+    Gap,
 }
 
 impl ProseKind {
@@ -113,6 +121,7 @@ impl ProseKind {
             Self::Steps => "steps",
             Self::List => "list",
             Self::Formula => "formula",
+            Self::Gap => "gap",
         }
     }
 }
@@ -129,6 +138,10 @@ pub struct Table {
     pub figure: Option<Figure>,
     /// What fills it.
     pub content: TableContent,
+    /// The keys of the columns that are printed; empty where that is not stated.
+    pub columns: Vec<String>,
+    /// The values or first bits of its rows in the order as printed; ascending where there are none.
+    pub order: Vec<i128>,
 }
 
 /// A numbered figure of the manual: the picture of a [`Table`].
@@ -267,6 +280,76 @@ pub struct Erratum {
     pub because: Text,
     /// Tables of the document that [`place`](Self::place) names.
     pub tables: Vec<TableId>,
+    /// Facts that the manual does not print, where it is about such.
+    pub unprinted: Option<Unprinted>,
+}
+
+/// Facts that the printed manual does not state.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Unprinted {
+    /// The facts of the places of the erratum; of its devices where it has no place.
+    pub facts: Vec<Fact>,
+    /// The values or bits of the type that it is about; all where there are none.
+    pub of: Vec<i128>,
+    /// Where they come from instead.
+    pub basis: Basis,
+}
+
+impl Unprinted {
+    /// The words of facts that an erratum can name.
+    pub const FACTS: &'static [&'static str] = &[
+        Fact::Name.word(),
+        Fact::Type.word(),
+        Fact::Meaning.word(),
+        Fact::Unit.word(),
+        Fact::Access.word(),
+        Fact::Mapping.word(),
+        Fact::Default.word(),
+        Fact::LowLimit.word(),
+        Fact::HighLimit.word(),
+        Fact::Storage.word(),
+        Fact::About.word(),
+        Fact::Transitions.word(),
+        Fact::Vendor.word(),
+        Fact::Product.word(),
+        Fact::ProductRevision.word(),
+        Fact::DeviceType.word(),
+        Fact::BitRates.word(),
+        Fact::PdoCount.word(),
+        Fact::Reaction.word(),
+    ];
+}
+
+/// Where a fact comes from that the printed manual does not state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Basis {
+    /// A standard says it.
+    Standard,
+    /// It is assumed.
+    Assumption,
+}
+
+impl Basis {
+    /// The words of a specification.
+    pub const WORDS: &'static [&'static str] = &["standard", "assumption"];
+
+    /// The word that a specification uses.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::Assumption => "assumption",
+        }
+    }
+
+    /// The basis of a word.
+    pub fn from_word(word: &str) -> Option<Self> {
+        match word {
+            "standard" => Some(Self::Standard),
+            "assumption" => Some(Self::Assumption),
+            _ => None,
+        }
+    }
 }
 
 /// What an erratum is about.

@@ -16,6 +16,11 @@ macro_rules! facts {
             /// All kinds, in the order in which they are shown.
             pub const ALL: &'static [Fact] = &[$(Fact::$variant,)+];
 
+            /// The fact of an English word.
+            pub fn from_word(word: &str) -> Option<Self> {
+                match word { $($word => Some(Fact::$variant),)+ _ => None }
+            }
+
             /// The English word: the key that states the fact, where one key does.
             pub const fn word(self) -> &'static str {
                 match self { $(Fact::$variant => $word,)+ }
@@ -73,6 +78,10 @@ facts! {
     Warning = "warning",
     /// Description.
     About = "about",
+    /// What the printed manual leaves open.
+    Gap = "gap",
+    /// Words by which readers look for it.
+    Search = "search",
     /// The entry that an alias shows.
     Alias = "alias",
     /// The flag of a COB-ID that forbids remote frames.
@@ -111,6 +120,8 @@ facts! {
     Requirement = "require",
     /// What the device does on an error.
     Reaction = "reaction",
+    /// How a state machine goes from one state to another.
+    Transitions = "transitions",
     /// What shows an error.
     Shown = "shown",
     /// What resets an error.
@@ -178,9 +189,12 @@ impl Fact {
             | Self::Identifier
             | Self::Warning
             | Self::About
+            | Self::Gap
+            | Self::Search
             | Self::Alias
             | Self::Requirement
             | Self::Reaction
+            | Self::Transitions
             | Self::Shown
             | Self::Reset
             | Self::OptionCode

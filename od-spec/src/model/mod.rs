@@ -22,6 +22,7 @@ mod named_type;
 mod object;
 mod pdo;
 mod pdo_parameter;
+mod phrases;
 mod ratio;
 mod real;
 mod role;
@@ -42,8 +43,8 @@ pub use condition::{
 };
 pub use device::{AnyError, BIT_RATES, Date, DateTime, DeviceInfo, Dictionary, FileInfo};
 pub use document::{
-    BitTable, Content, Document, Erratum, ErratumKind, ErratumPlace, Figure, Issue, LadderTable, PdoTable,
-    Prose, ProseKind, Section, Table, TableContent, TableId,
+    Basis, BitTable, Content, Document, Erratum, ErratumKind, ErratumPlace, Figure, Issue, LadderTable,
+    PdoTable, Prose, ProseKind, Section, Table, TableContent, TableId, Unprinted,
 };
 pub use download::{NoSuchValue, Write, download};
 pub use dynamic_channel::DynamicChannel;
@@ -61,6 +62,7 @@ pub use named_type::{
 pub use object::{Alias, EdsPolicy, Entry, Object, ObjectKind, Origin, RealLimits, SpecialValue};
 pub use pdo::{Mapped, Pdo, PdoTarget};
 pub use pdo_parameter::{CommunicationParameter, usual as usual_pdo_names, usual_pdo_storage};
+pub use phrases::Phrases;
 pub use ratio::Ratio;
 pub use real::Real;
 pub use role::Role;
@@ -186,6 +188,8 @@ pub struct ErrorCode {
     pub treated_by: Devices,
     /// More about it.
     pub about: Text,
+    /// Words by which readers look for it.
+    pub search: Phrases,
     /// Where its code is written.
     pub span: Span,
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use super::{DataType, Statement, Text};
+use super::{DataType, Phrases, Statement, Text};
 use crate::source::Spanned;
 
 /// An enum or a bit field with a name.
@@ -91,6 +91,8 @@ pub struct EnumValue {
     pub supported: bool,
     /// Meaning.
     pub about: Text,
+    /// Words by which readers look for it.
+    pub search: Phrases,
     /// Where its name is written, which is not part of what it is.
     pub place: Spanned<()>,
 }
@@ -109,6 +111,8 @@ pub struct BitField {
     pub name: String,
     /// Meaning.
     pub about: Text,
+    /// Words by which readers look for it.
+    pub search: Phrases,
     /// Error codes that the device reports with this bit.
     pub errors: Vec<Spanned<u16>>,
     /// Short name, as register pictures and tables of commands have it.
@@ -141,7 +145,33 @@ pub struct ModeMeaning {
     pub about: Text,
 }
 
+impl NamedType {
+    /// Whether it gives no value or bit a meaning that a standard's type does not know, whatever words it has for them. It may have
+    /// fewer; negative values are the maker's.
+    pub(crate) fn agrees_with(&self, standard: &Self) -> bool {
+        match (&self.kind, &standard.kind) {
+            (TypeKind::Enum(own), TypeKind::Enum(known)) => own
+                .iter()
+                .filter(|value| value.supported && value.value >= 0)
+                .all(|value| known.iter().any(|one| one.value == value.value)),
+            (TypeKind::Bits(own), TypeKind::Bits(known)) => own
+                .iter()
+                .filter(|field| field.usage == BitUsage::Used)
+                .all(|field| known.iter().any(|one| field.agrees_with(one))),
+            (TypeKind::Enum(_), TypeKind::Bits(_)) | (TypeKind::Bits(_), TypeKind::Enum(_)) => false,
+        }
+    }
+}
+
 impl BitField {
+    /// Whether a standard has these bits with the same level, alone or in a longer run.
+    fn agrees_with(&self, standard: &Self) -> bool {
+        standard.usage == BitUsage::Used
+            && (standard.first..=standard.last).contains(&self.first)
+            && self.last <= standard.last
+            && self.active == standard.active
+    }
+
     /// Whether the bits have a stated meaning: under a name of their own, or in some mode.
     pub fn is_told(&self) -> bool {
         self.usage == BitUsage::Used && (!self.name.is_empty() || !self.modes.is_empty())

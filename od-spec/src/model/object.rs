@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::{
     Access, Author, BitErrors, BitField, Category, DataType, Departure, EditorNotes, EntryId, Expr, Fact,
-    Facts, Index, NamedType, Outside, PdoMapping, Ratio, Real, Rounding, Statement, Storage, SubIndex, Text,
-    TypeKind, Unit, Value,
+    Facts, Index, NamedType, Outside, PdoMapping, Phrases, Ratio, Real, Rounding, Statement, Storage,
+    SubIndex, Text, TypeKind, Unit, Value,
 };
 use crate::ascii::name_in_ascii;
 use crate::source::{Span, Spanned};
@@ -98,6 +98,8 @@ pub struct Object {
     pub warning: Text,
     /// Meaning.
     pub about: Text,
+    /// Words by which readers look for it.
+    pub search: Phrases,
     /// Entries by ascending sub-index; a VAR or DOMAIN has exactly one, at 0.
     pub entries: Vec<Entry>,
     /// Where it is written.
@@ -221,6 +223,8 @@ pub struct Entry {
     pub warning: Text,
     /// Meaning.
     pub about: Text,
+    /// Words by which readers look for it.
+    pub search: Phrases,
     /// Where it is written.
     pub span: Span,
 }
@@ -264,6 +268,7 @@ impl Entry {
             facts: Facts::none(),
             warning: Text::default(),
             about: Text::default(),
+            search: Phrases::default(),
             span,
         }
     }

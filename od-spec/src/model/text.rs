@@ -5,6 +5,8 @@
 pub struct Text {
     /// Language code and text, by ascending code. There are thousands of texts, most in one language.
     by_language: Vec<(Box<str>, Box<str>)>,
+    /// What the printed manual leaves open about the same.
+    gap: Option<Box<Text>>,
 }
 
 impl Text {
@@ -14,7 +16,7 @@ impl Text {
             texts.into_iter().map(|(language, text)| (language.into(), text.into())).collect();
         by_language.sort_by(|(one, _), (other, _)| one.cmp(other));
         by_language.dedup_by(|(later, _), (first, _)| later == first);
-        Self { by_language }
+        Self { by_language, gap: None }
     }
 
     /// The texts in these languages; all, where there is none in them or no language is named.
@@ -34,12 +36,22 @@ impl Text {
         self.iter().find(|(code, _)| *code == language).or_else(|| self.iter().next()).map(|(_, text)| text)
     }
 
+    /// What the printed manual leaves open about what the text describes: only documents show it.
+    pub fn gap(&self) -> Option<&Text> {
+        self.gap.as_deref()
+    }
+
+    /// The same with what the printed manual leaves open.
+    pub(crate) fn leaving_open(self, gap: Text) -> Self {
+        Self { gap: (!gap.is_empty()).then(|| Box::new(gap)), ..self }
+    }
+
     /// Language codes and texts, by ascending code.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
         self.by_language.iter().map(|(language, text)| (&**language, &**text))
     }
 
-    /// Whether there is no text at all.
+    /// Whether there is no text; there may be a gap.
     pub fn is_empty(&self) -> bool {
         self.by_language.is_empty()
     }

@@ -5,6 +5,7 @@ mod assignment;
 mod entries;
 mod file;
 mod layers;
+mod on_device;
 mod overlay;
 mod read;
 
@@ -12,6 +13,7 @@ pub use crate::ast::SettingDecl;
 pub use file::{ParameterFile, is_parameter_file, parameter_file, settings_of_map};
 pub use layers::{Assigned, Layer, Origin, assign_layers};
 pub(crate) use layers::{Laid, lay_over};
+pub use on_device::{OnDevice, on_device};
 
 use crate::ast::Name;
 use crate::check;

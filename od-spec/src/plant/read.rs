@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use super::{MachineType, Master, Plant, PlantDevice, Site, classes, levels, machines};
 use crate::ast::plant::{DeviceDecl, PlantDecl};
-use crate::compile::{Compiled, compile, is_known};
+use crate::compile::{Compiled, compile};
 use crate::decode;
+use crate::describing::describing;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
-use crate::files::{self, Loader, add_source, may_be_specification};
+use crate::files::Loader;
 use crate::keys;
 use crate::model::SystemSource;
 use crate::node_of_file::NodeOfFile;
@@ -146,36 +147,14 @@ fn file(
     diagnostics: &mut Diagnostics,
     files: &mut Vec<DeviceFile>,
 ) -> Option<Described> {
-    let from = sources.file(root).name().to_owned();
-    let path = device.from.value.as_str();
-    let name = files::beside(&from, path);
-    let bytes = match loader.load(path, &from) {
-        Ok(bytes) => bytes,
-        Err(reason) => {
-            let message = format!("cannot read `{}`: {reason}", shorten(path));
-            diagnostics.push(
-                Diagnostic::new(codes::UNREADABLE, device.from.span, message)
-                    .help("name a specification, EDS or DCF relative to this file"),
-            );
+    let id = match describing(sources, root, &device.from, loader) {
+        Ok(id) => id,
+        Err(diagnostic) => {
+            diagnostics.push(*diagnostic);
             return None;
         }
     };
-    let is_specification = may_be_specification(&bytes);
-    let id = match add_source(sources, &name, bytes) {
-        Ok(id) if is_specification || is_known(sources.file(id)) => id,
-        Err(diagnostic) if is_specification || diagnostic.code == codes::TOO_LARGE => {
-            diagnostics.push(diagnostic.at(device.from.span));
-            return None;
-        }
-        Ok(_) | Err(_) => {
-            let message = format!("`{}` does not describe a device", shorten(path));
-            diagnostics.push(
-                Diagnostic::new(codes::UNREADABLE, device.from.span, message)
-                    .help("name a specification, EDS or DCF relative to this file"),
-            );
-            return None;
-        }
-    };
+    let name = sources.file(id).name().to_owned();
     let Compiled { system, node, diagnostics: of_file, .. } = compile(sources, id, loader);
     let source = system.as_ref().map(|system| system.source);
     files.push(DeviceFile { name, source, diagnostics: of_file });

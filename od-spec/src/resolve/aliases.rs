@@ -8,7 +8,7 @@ use super::entries;
 use super::keys_have_effect::refuse as refuse_key;
 use super::refs::{Broken, Names};
 use super::surroundings::Surroundings;
-use super::types::words;
+use super::types::with_gap;
 use crate::ast::{EntryDecl, Name};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
@@ -154,6 +154,9 @@ fn alias(
         );
     }
     follow(&mut entry, &alias, &decl.entry, target);
+    if entry.search.is_empty() {
+        entry.search.clone_from(&target.entry.search);
+    }
     entry.eds = entries::alias_policy(&entry, target.entry, &decl.entry, around.eds);
     entry.alias = Some(alias);
     entry.facts.state(Fact::Alias, Statement::written(target.reference.span, around.file));
@@ -170,7 +173,8 @@ fn alias(
         links: decl.links.clone().unwrap_or_default(),
         editor: decl.editor.clone(),
         warning: entry.warning.clone(),
-        about: words(&decl.entry.about),
+        about: with_gap(&decl.entry.about, &decl.entry.gap),
+        search: entry.search.clone(),
         entries: vec![entry],
         span: decl.index.span,
     })

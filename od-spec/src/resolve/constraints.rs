@@ -12,7 +12,7 @@ use crate::source::{Span, Spanned};
 
 use super::condition_names::{self, Described};
 use super::refs::Broken;
-use super::types::words;
+use super::types::with_gap;
 use super::varied::Varied;
 
 pub(super) fn resolve(
@@ -329,7 +329,7 @@ fn constraint<'d>(
     Some(Constraint {
         name: decl.name.value.clone(),
         series: decl.series.clone(),
-        about: words(&decl.about),
+        about: with_gap(&decl.about, &decl.gap),
         require: require.value.clone(),
         when: when.map(|when| when.value.clone()),
         devices: Devices::Only(keys),

@@ -273,7 +273,9 @@ const fn is_fixed_by_standards(fact: Fact) -> bool {
     !matches!(
         fact,
         Fact::About
+            | Fact::Gap
             | Fact::Warning
+            | Fact::Search
             | Fact::Since
             | Fact::Storage
             | Fact::Eds
@@ -283,13 +285,15 @@ const fn is_fixed_by_standards(fact: Fact) -> bool {
 }
 
 /// The facts in which an entry differs. A type of the same width and sign with other bits or values differs in its meaning
-/// only.
+/// only, and not at all where it says the same in its own words.
 fn differences(over: &EntryDecl, below: &EntryDecl, scope: &Scope) -> Vec<Fact> {
     let on_the_bus = |entry: &EntryDecl| {
         let name = &entry.type_name.as_ref()?.value;
         DataType::from_name(name).or_else(|| Some(scope.types.get(name)?.base))
     };
     let same = on_the_bus(over).is_some() && on_the_bus(over) == on_the_bus(below);
+    let named = |entry: &EntryDecl| scope.types.get(&entry.type_name.as_ref()?.value);
+    let agrees = same && named(over).zip(named(below)).is_some_and(|(over, below)| over.agrees_with(below));
     let lower = |entry: &EntryDecl| entry.name.as_ref().map(|name| name.value.to_lowercase());
     // What the library leaves to the device is no difference, nor is a name in another case.
     let left_open = |fact: Fact| match fact {
@@ -299,6 +303,7 @@ fn differences(over: &EntryDecl, below: &EntryDecl, scope: &Scope) -> Vec<Fact> 
         Fact::HighLimit => below.max.is_none(),
         Fact::Unit => below.unit.is_none(),
         Fact::Special => below.special.is_none(),
+        Fact::Type => agrees,
         _ => false,
     };
     let facts = over.differences(below).into_iter().filter(|fact| !left_open(*fact));

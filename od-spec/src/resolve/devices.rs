@@ -11,7 +11,7 @@ use super::libraries::Libraries;
 use super::refs::Broken;
 use super::scope::{Scope, unknown};
 use super::surroundings::{EdsDefaults, Surroundings};
-use super::types::words;
+use super::types::with_gap;
 use super::{aliases, canopennode, condition_names, device_info, objects, pdos};
 use crate::ast::{DeviceDecl, FrontEnd, Name, ObjectDecl, PdosDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
@@ -110,7 +110,7 @@ pub(super) fn resolve<'a>(
                 name: device.name.as_ref().map_or(String::new(), |name| name.value.clone()),
                 file: device_info::file(device, vendor),
                 info,
-                about: words(&device.about),
+                about: with_gap(&device.about, &device.gap),
                 any_error: device_info::any_error(device),
                 facts: device_info::facts(device),
                 objects: built.objects,

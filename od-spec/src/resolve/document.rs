@@ -10,13 +10,14 @@ use super::refs::{Broken, NamesOf};
 use super::table_content::Contents;
 use super::types::words;
 use super::varied::Varied;
+use super::{printed_order, unprinted};
 use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Named, PartDecl, SectionDecl, Spec};
 use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::limits;
 use crate::model::{
     BitTable, Content, Devices, Dictionary, Document, Erratum, ErratumKind, ErratumPlace, Figure, Index,
-    Issue, LadderTable, PdoTable, Prose, Section, System, Table, TableContent,
+    Issue, LadderTable, PdoTable, Prose, ProseKind, Section, System, Table, TableContent,
 };
 use crate::running_text::Numbered;
 use crate::source::{Span, Spanned};
@@ -31,6 +32,8 @@ pub(super) fn resolve(root: &Spec, figures: &Figures<'_, '_>, diagnostics: &mut 
                 None => title,
             })
         }),
+        subtitle: source.map(|source| words(&source.subtitle)).unwrap_or_default(),
+        address: source.map(|source| words(&source.address)).unwrap_or_default(),
         about: source.map(|source| words(&source.about)).unwrap_or_default(),
         revision: root.revision.as_ref().and_then(issue),
         history: root.history.iter().filter_map(issue).collect(),
@@ -54,7 +57,8 @@ fn section(decl: &SectionDecl, figures: &Figures<'_, '_>, diagnostics: &mut Diag
     for part in &decl.content {
         match part.contents.first().map(|content| &content.value) {
             Some(ContentDecl::Prose(kind, items)) => {
-                section.content.push(Content::Prose(Prose { kind: *kind, items: items.clone() }));
+                let warns_for = part.warns_for.iter().map(|index| index.value).collect();
+                section.content.push(Content::Prose(Prose { kind: *kind, items: items.clone(), warns_for }));
             }
             Some(content) => {
                 if let Some(table) = table(part, content, figures, diagnostics) {
@@ -116,7 +120,9 @@ fn table(
         let own = words(&figure.value.title);
         Some(Figure { number, title: if own.is_empty() { title.clone() } else { own } })
     });
-    Some(Table { number, title, figure, content })
+    let order = decl.order.iter().flat_map(|order| &order.value).map(|number| number.value).collect();
+    let columns = decl.columns.iter().map(|column| column.value.clone()).collect();
+    Some(Table { number, title, figure, content, columns, order })
 }
 
 /// Codes of a list; `all` is the empty list.
@@ -182,6 +188,7 @@ pub(super) fn errata(
             );
         }
         let Some(kind) = decl.kind else { continue };
+        let unprinted = unprinted::of(decl, kind.value, &at, system, diagnostics);
         let devices = if decl.devices.is_some() { on } else { owners(&at, system) };
         errata.push(Erratum {
             at,
@@ -192,6 +199,7 @@ pub(super) fn errata(
             reads: words(&decl.reads),
             because: words(&decl.because),
             tables: named.tables,
+            unprinted,
         });
     }
     errata
@@ -278,6 +286,16 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
         // None or several were reported by the keys of a text or table.
         let [content] = decl.contents.as_slice() else { continue };
         contents.check(&content.value, diagnostics);
+        printed_order::check(decl, content, system, diagnostics);
+        contents.objects(&decl.warns_for, diagnostics);
+        let is_warning = matches!(content.value, ContentDecl::Prose(ProseKind::Warning, _));
+        if let Some(first) = decl.warns_for.first().filter(|_| !is_warning) {
+            diagnostics.push(
+                Diagnostic::new(codes::CONFLICTING_KEYS, first.span, "`for` has no effect without `warning`")
+                    .with(content.span, "the content is here")
+                    .help("remove the key; only a `warning` has objects"),
+            );
+        }
         let is_prose = matches!(content.value, ContentDecl::Prose(..));
         if let Some(figure) = decl.figure.as_ref().filter(|_| !is_prose && !is_drawn(&content.value)) {
             let message = "nothing is drawn of this content, so that it is not a figure";
@@ -300,6 +318,9 @@ pub(super) fn check(root: &Spec, system: &System, broken: &Broken, diagnostics: 
 
 /// The place of the first key that only tables have, and what a text has not.
 fn of_table(decl: &PartDecl) -> Option<(Span, &'static str)> {
+    if let Some(column) = decl.columns.first() {
+        return Some((column.span, "no columns"));
+    }
     let number = decl.number.as_ref().map(|number| number.span);
     let of_both = number.or_else(|| decl.title.as_ref().map(|title| title.span));
     let figure = decl.figure.as_ref().map(|figure| (figure.span, "no picture"));

@@ -6,7 +6,7 @@ use super::bit_values;
 use super::defaults;
 use super::scope::{Scope, unknown_or};
 use super::surroundings::{EdsDefaults, Surroundings};
-use super::types::words;
+use super::types::{phrases, with_gap, words};
 use super::values::{self, Expected};
 use crate::ast::{BitErrorDecl, BitRange, ConditionDecl, DefaultDecl, EntryDecl, Name, SpecialDecl};
 use crate::diag::shorten;
@@ -78,7 +78,8 @@ pub(super) fn resolve(
         bit_errors: bit_errors(decl.bit_errors.as_ref(), named_type.as_deref(), diagnostics),
         eds: EdsPolicy { access, default: true, no_write: false, no_scan: false },
         warning: words(&decl.warning),
-        about: words(&decl.about),
+        about: with_gap(&decl.about, &decl.gap),
+        search: phrases(decl.search.as_ref()),
         facts: decl.facts(around.file),
         span: decl.span,
         named_type,

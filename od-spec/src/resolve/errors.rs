@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::libraries::{self, Libraries};
 use super::refs::{Broken, NamesOf};
-use super::types::words;
+use super::types::{phrases, words};
 use super::varied::Varied;
 use crate::ast::{CodeRange, ErrorDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
@@ -127,7 +127,9 @@ fn error(
                 .map(|key| key.value.as_str()),
         ),
         reset: text(words(&decl.reset), below.map(|below| words(&below.reset))),
-        about: text(words(&decl.about), below.map(|below| words(&below.about))),
+        about: text(words(&decl.about), below.map(|below| words(&below.about)))
+            .leaving_open(words(&decl.gap)),
+        search: phrases(decl.search.as_ref().or_else(|| below?.search.as_ref())),
         span: decl.codes.span,
     })
 }

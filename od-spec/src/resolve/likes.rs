@@ -293,10 +293,10 @@ fn adopted_object(decl: &ObjectDecl, maker: FileId, place: Span) -> ObjectDecl {
 }
 
 /// What the other object says where it is not said here. What goes down to the entries here goes before what the other says of
-/// each. Its name, its identifier, its links and its devices are its own.
+/// each. Its name, its identifier, the words by which readers look for it, its links and its devices are its own.
 fn laid_over(over: &ObjectDecl, below: ObjectDecl) -> ObjectDecl {
     let common = over.entry.inherited();
-    let head = EntryDecl { name: None, identifier: None, ..taken(&below.entry, &over.entry) };
+    let head = EntryDecl { name: None, identifier: None, search: None, ..taken(&below.entry, &over.entry) };
     let array = below.array.map(|below| {
         let Some(over) = &over.array else {
             let elements = all_taken(below.elements, &[&common]);

@@ -7,7 +7,7 @@ use super::libraries::{self, Libraries};
 use super::numbers::{to_u8, to_u32};
 use super::refs::{Broken, NamesOf};
 use super::scope::unknown;
-use super::types::words;
+use super::types::{with_gap, words};
 use super::varied::Varied;
 use crate::ast::{Lacking, MachineDecl, Name, Spec, TransitionDecl};
 use crate::check::codes as rule_codes;
@@ -69,6 +69,7 @@ fn whole<'a>(
             Some(state) => {
                 state.pattern = over.pattern.clone().or_else(|| state.pattern.clone());
                 state.about = over.about.clone().or_else(|| state.about.clone());
+                state.gap = over.gap.clone().or_else(|| state.gap.clone());
             }
             None => states.push(over.clone()),
         }
@@ -95,6 +96,7 @@ fn whole<'a>(
                 command.pattern = over.pattern.clone().or_else(|| command.pattern.clone());
                 command.send = over.send.or(command.send);
                 command.about = over.about.clone().or_else(|| command.about.clone());
+                command.gap = over.gap.clone().or_else(|| command.gap.clone());
                 if !over.transitions.is_empty() {
                     command.transitions.clone_from(&over.transitions);
                 }
@@ -184,7 +186,7 @@ fn machine(
             let pattern = state.pattern.as_ref()?;
             check_width(pattern, status, device, diagnostics)?;
             let (name, pattern) = (state.name.value.clone(), pattern.value.clone());
-            Some(State { name, pattern, about: words(&state.about), span: state.name.span })
+            Some(State { name, pattern, about: with_gap(&state.about, &state.gap), span: state.name.span })
         })
         .collect();
     check_states_differ(decl, &states, diagnostics);
@@ -322,7 +324,7 @@ fn commands(
             pattern: pattern.value.clone(),
             send: one.send.as_ref().map(|send| to_u32(send.value)),
             transitions: one.transitions.iter().map(|number| to_u8(number.value)).collect(),
-            about: words(&one.about),
+            about: with_gap(&one.about, &one.gap),
             span: one.name.span,
         });
     }

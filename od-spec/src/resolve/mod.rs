@@ -33,6 +33,7 @@ mod pdo_parameters;
 mod pdo_times;
 mod pdos;
 mod places;
+mod printed_order;
 mod refs;
 mod scope;
 mod surroundings;
@@ -40,6 +41,7 @@ mod switches;
 mod table_content;
 mod timings;
 mod types;
+mod unprinted;
 pub(crate) mod values;
 mod varied;
 

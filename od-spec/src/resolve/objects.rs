@@ -7,7 +7,7 @@ use super::defaults;
 use super::entries;
 use super::keys_have_effect;
 use super::surroundings::Surroundings;
-use super::types::words;
+use super::types::{phrases, with_gap, words};
 use crate::ast::{ArrayDecl, EntryDecl, ObjectDecl, RecordDecl};
 use crate::check::codes as rule_codes;
 use crate::diag::{Diagnostic, Diagnostics, codes};
@@ -76,7 +76,8 @@ pub(super) fn resolve(
         links: decl.links.clone().unwrap_or_default(),
         editor: decl.editor.clone(),
         warning: words(&decl.entry.warning),
-        about: words(&decl.entry.about),
+        about: with_gap(&decl.entry.about, &decl.entry.gap),
+        search: phrases(decl.entry.search.as_ref()),
         entries,
         span: decl.index.span,
     })

@@ -4,7 +4,7 @@ use super::pdo_parameters::{Described, Kept, Said};
 use crate::ast::PdoDecl;
 use crate::model::{
     Access, CommunicationParameter, DataType, Entry, Fact, Index, Mapped, Object, ObjectKind, Origin, Pdo,
-    Statement, Storage, SubIndex, Text, Value,
+    Phrases, Statement, Storage, SubIndex, Text, Value,
 };
 use crate::source::{Span, Spanned};
 use crate::wording::Language;
@@ -90,6 +90,7 @@ fn object(
         editor: None,
         warning: Text::default(),
         about: Text::default(),
+        search: Phrases::default(),
         entries: parameters
             .into_iter()
             .map(|parameter| parameter.into_entry(kept, languages, span))

@@ -8,7 +8,7 @@ use super::pdo_objects::{communication_object, mapping_object};
 use super::pdo_parameters::{Described, check_limits};
 use super::pdo_times::{self, Step};
 use super::refs::{Broken, Names};
-use super::types::words;
+use super::types::with_gap;
 use super::values::{self, Expected};
 use crate::ast::{Name, PdoDecl, PdosDecl};
 use crate::check::codes as rule_codes;
@@ -156,7 +156,7 @@ fn pdo(
         variable_mapping: !decl.is_fixed(),
         capacity,
         map: map.iter().map(|mapped| mapped.value.clone()).collect(),
-        about: words(&decl.about),
+        about: with_gap(&decl.about, &decl.gap),
         span: decl.number.span,
     })
 }

@@ -250,6 +250,8 @@ mod tests {
             figure: number
                 .filter(|number| *number == 3)
                 .map(|_| Figure { number: 7, title: Text::default() }),
+            columns: Vec::new(),
+            order: Vec::new(),
             content: TableContent::Objects(indices.iter().map(|index| Index(*index)).collect()),
         };
         let section = |number: &str, tables| Section {

@@ -114,7 +114,7 @@ impl<'a> Contents<'a> {
         }
     }
 
-    fn objects(&self, list: &[Spanned<Index>], diagnostics: &mut Diagnostics) {
+    pub(super) fn objects(&self, list: &[Spanned<Index>], diagnostics: &mut Diagnostics) {
         for index in list {
             if !self.indices.contains(&index.value) && !self.broken.has(index.value) {
                 let message = format!("there is no object {}", index.value);

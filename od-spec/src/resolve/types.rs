@@ -7,7 +7,9 @@ use crate::ast::{BitDecl, BitRange, TypeDecl, ValueDecl, Words};
 use crate::check::codes as rule_codes;
 use crate::diag::shorten;
 use crate::diag::{Diagnostic, Diagnostics, codes};
-use crate::model::{BitField, DataType, EnumValue, ModeMeaning, NamedType, Statement, Text, TypeKind};
+use crate::model::{
+    BitField, DataType, EnumValue, ModeMeaning, NamedType, Phrases, Statement, Text, TypeKind,
+};
 use crate::source::{FileId, Span, Spanned};
 
 /// Resolves a type; `None` when it is too broken to be used.
@@ -45,12 +47,28 @@ pub(super) fn resolve(decl: &TypeDecl, maker: FileId, diagnostics: &mut Diagnost
         (Some(_), Some(_)) | (None, None) => return None,
     };
     let stated = Statement::written(decl.name.span, maker);
-    Some(NamedType { name: decl.name.value.clone(), base, about: words(&decl.about), kind, stated })
+    Some(NamedType {
+        name: decl.name.value.clone(),
+        base,
+        about: with_gap(&decl.about, &decl.gap),
+        kind,
+        stated,
+    })
 }
 
 /// A text or none.
 pub(super) fn words(words: &Words) -> Text {
     words.as_ref().map(|words| words.value.clone()).unwrap_or_default()
+}
+
+/// A description with what the printed manual leaves open.
+pub(super) fn with_gap(about: &Words, gap: &Words) -> Text {
+    words(about).leaving_open(words(gap))
+}
+
+/// The phrases by which readers look for something, if there are any.
+pub(super) fn phrases(written: Option<&Spanned<Phrases>>) -> Phrases {
+    written.map(|phrases| phrases.value.clone()).unwrap_or_default()
 }
 
 fn values(
@@ -81,7 +99,8 @@ fn values(
             value,
             name: name.value.clone(),
             supported: decl.supported.is_none_or(|supported| supported.value),
-            about: words(&decl.about),
+            about: with_gap(&decl.about, &decl.gap),
+            search: phrases(decl.search.as_ref()),
             place: Spanned::new((), name.span),
         });
     }
@@ -160,7 +179,8 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
         last,
         usage: bit.usage,
         name: bit.name.as_ref().map_or(String::new(), |name| name.value.clone()),
-        about: words(&bit.about),
+        about: with_gap(&bit.about, &bit.gap),
+        search: phrases(bit.search.as_ref()),
         errors: bit.errors.iter().map(|code| code.map(to_u16)).collect(),
         mnemonic: bit.mnemonic.as_ref().map(|mnemonic| mnemonic.value.clone()),
         clamp: bit.clamp.as_ref().map(|clamp| clamp.value.clone()),
@@ -173,7 +193,7 @@ fn field(bit: &BitDecl, diagnostics: &mut Diagnostics) -> BitField {
             .iter()
             .filter_map(|bit| {
                 let name = bit.name.as_ref()?.value.clone();
-                Some(ModeMeaning { mode: bit.mode.clone(), name, about: words(&bit.about) })
+                Some(ModeMeaning { mode: bit.mode.clone(), name, about: with_gap(&bit.about, &bit.gap) })
             })
             .collect(),
         place: Spanned::new((), bit.name.as_ref().map_or(bit.bits.span, |name| name.span)),
@@ -218,6 +238,7 @@ fn fill(decl: &TypeDecl, owner: &[Option<Span>], fields: &mut Vec<BitField>, dia
             usage,
             name: String::new(),
             about: Text::default(),
+            search: Phrases::default(),
             errors: Vec::new(),
             mnemonic: None,
             clamp: None,

@@ -104,6 +104,7 @@ pub(crate) const fn rules<'a>(list: &'a [&'a Rule]) -> Rules<'a> {
 mod tests {
     use super::*;
     use crate::decode::decode;
+    use crate::diag::Severity;
     use crate::yaml::parse;
 
     #[test]
@@ -115,7 +116,9 @@ mod tests {
             let file = sources.add(*name, *text);
             let tree = parse(file, sources.file(file), &mut diagnostics).unwrap();
             decode(&tree, &mut diagnostics);
-            assert!(diagnostics.is_empty(), "{name}: {diagnostics:?}");
+            // Texts that are in English alone are noted.
+            let remarks = diagnostics.iter().filter(|one| one.severity() != Severity::Note);
+            assert_eq!(remarks.count(), 0, "{name}: {diagnostics:?}");
         }
     }
 

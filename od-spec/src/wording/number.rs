@@ -121,7 +121,7 @@ impl Wording {
 
     /// A raw value in its unit: `50.0 °C`.
     pub fn physical(self, unit: &Unit, raw: i128) -> String {
-        format!("{} {}", self.decimal(&unit.amount(raw)), unit.symbol)
+        self.quantity(&self.decimal(&unit.amount(raw)), &unit.symbol)
     }
 
     /// The same with the raw value after it, where that is another number and the reader has to send it: `50.0 °C
@@ -132,11 +132,11 @@ impl Wording {
 
     /// An amount with its symbol, and the raw value where that is another number and the reader has to send it.
     pub(super) fn with_raw(self, unit: &Unit, amount: &str, raw: &str) -> String {
-        let symbol = &unit.symbol;
+        let amount = self.quantity(amount, &unit.symbol);
         match self.notation {
-            Notation::Eds | Notation::Manual if !unit.is_plain() => format!("{amount} {symbol} ({raw})"),
+            Notation::Eds | Notation::Manual if !unit.is_plain() => format!("{amount} ({raw})"),
             Notation::Eds | Notation::Manual | Notation::Rust | Notation::Json | Notation::Diagnostic => {
-                format!("{amount} {symbol}")
+                amount
             }
         }
     }
@@ -149,12 +149,22 @@ impl Wording {
 
     /// What one raw step is worth, and what it is counted from, as a sentence says it: `1 mV`, `0.1 °C from -40 °C`.
     pub fn counted_step(self, unit: &Unit) -> String {
-        let amount = |number: Ratio| format!("{} {}", self.decimal(&number.to_string()), unit.symbol);
+        let amount = |number: Ratio| self.quantity(&self.decimal(&number.to_string()), &unit.symbol);
         let step = amount(unit.scale);
         if unit.offset == Ratio::ZERO {
             return step;
         }
         format!("{step} {} {}", self.word(Word::From), amount(unit.offset))
+    }
+
+    /// A number with the symbol of its unit, where it has one: `50.0 °C`. In the manual, signs of plane angle follow the number
+    /// directly: `0.01°`.
+    pub fn quantity(self, amount: &str, symbol: &str) -> String {
+        let space = match (self.notation, symbol) {
+            (_, "") | (Notation::Manual, "°" | "′" | "″") => "",
+            _ => " ",
+        };
+        format!("{amount}{space}{symbol}")
     }
 
     /// A number that was written with a decimal point, as the language writes it.

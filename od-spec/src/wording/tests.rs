@@ -199,6 +199,15 @@ fn units_say_one_step() {
 }
 
 #[test]
+fn only_the_manual_has_degrees_without_a_space() {
+    let [eds, manual, ..] = ALL;
+    let quantities = |wording: Wording| ["°", "°C", "°/s", ""].map(|symbol| wording.quantity("1", symbol));
+    assert_eq!(quantities(manual), ["1°", "1 °C", "1 °/s", "1"]);
+    // Comments of an EDS are read back.
+    assert_eq!(quantities(eds), ["1 °", "1 °C", "1 °/s", "1"]);
+}
+
+#[test]
 fn facts_have_words_in_every_language() {
     let [_, english, german, rust, ..] = ALL;
     let run = Part::Entries { first: SubIndex(2), last: SubIndex(15) };

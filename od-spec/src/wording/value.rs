@@ -30,7 +30,7 @@ impl Wording {
         let number = self.decimal(&format!("{:?}", real.number()));
         let Some(unit) = &entry.unit else { return number };
         if unit.is_plain() {
-            return format!("{number} {}", unit.symbol);
+            return self.quantity(&number, &unit.symbol);
         }
         let exact = scalar::decimal(&real.number().to_string());
         let shown = exact.and_then(|exact| unit.decimal(exact));

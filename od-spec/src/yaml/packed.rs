@@ -3,7 +3,7 @@
 //! Bytes that belong to another text are noticed, so that a text whose bytes were not made again is only slower to read.
 //!
 //! First comes a digest of the text, eight bytes. Then each node in the order of the text: its [`Kind`], how far its place
-//! begins behind the beginning of the node before it, and how long the place is; then
+//! begins after the beginning of the node before it, and how long the place is; then
 //!
 //! - a scalar whose text is not the one at its place: the text's length and bytes,
 //! - a list: how many items, and the items,

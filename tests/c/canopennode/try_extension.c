@@ -203,14 +203,19 @@ int main(void) {
     EXPECT(io.write(&io.stream, &word, 2U, &done), ODR_OK);
     EXPECT(OD_RAM.x2000_set_point, 60000);
 
-    /* The node-ID, once. */
+    /* The node-ID, also a later one; what was changed stays. */
     EXPECT(OD_addNodeId(0U), ODR_INVALID_VALUE);
     EXPECT(OD_addNodeId(128U), ODR_INVALID_VALUE);
     EXPECT(OD_RAM.x200A_identifier, 0x700);
     EXPECT(OD_addNodeId(5U), ODR_OK);
     EXPECT(OD_RAM.x200A_identifier, 0x705);
-    EXPECT(OD_addNodeId(6U), ODR_OK);
+    EXPECT(OD_addNodeId(5U), ODR_OK);
     EXPECT(OD_RAM.x200A_identifier, 0x705);
+    EXPECT(OD_addNodeId(6U), ODR_OK);
+    EXPECT(OD_RAM.x200A_identifier, 0x706);
+    OD_RAM.x200A_identifier = 0x123U;
+    EXPECT(OD_addNodeId(7U), ODR_OK);
+    EXPECT(OD_RAM.x200A_identifier, 0x123);
 
     /* Storage: what 1010h.2 and .3 store. */
     EXPECT(sizeof(storage) / sizeof(storage[0]), 2);

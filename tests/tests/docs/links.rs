@@ -62,16 +62,21 @@ fn a_heading_is_no_link() {
 }
 
 #[test]
-fn the_language_of_a_text_with_links_is_reported_once() {
+fn a_chapter_reports_once_that_it_is_not_translated() {
     assert_has(
         chapter(Format::Html, "index.html"),
         "<p><span lang=\"en\">Write </span><a href=\"#2000\" lang=\"en\">2000h</a><span lang=\"en\"> after </span>\
-         <a href=\"#2001.0\" lang=\"en\">2001h.0</a><span lang=\"en\"> only.</span><sup class=\"language\"> en</sup></p>",
+         <a href=\"#2001.0\" lang=\"en\">2001h.0</a><span lang=\"en\"> only.</span></p>",
     );
     assert_has(
         chapter(Format::Markdown, "1-wozu-2000h-dient.md"),
-        "> Write [2000h](#2000) after [2001h.0](#2001) only. *(en)*",
+        "> Write [2000h](#2000) after [2001h.0](#2001) only.",
     );
+    for (format, name) in [(Format::Html, "index.html"), (Format::Markdown, "1-wozu-2000h-dient.md")] {
+        let text = chapter(format, name);
+        let reports = text.matches("Was in diesem Teil nicht übersetzt ist, gibt es nur auf Englisch.");
+        assert_eq!(reports.count(), 1, "{name}");
+    }
 }
 
 #[test]

@@ -11,6 +11,7 @@ use od_tests::{compile_clean, documents, plant};
 
 mod defaults;
 mod figures;
+mod gaps;
 mod groups;
 mod links;
 mod machines;
@@ -24,6 +25,7 @@ mod read_back;
 mod svg;
 mod switches;
 mod timings;
+mod workbench;
 
 use markdown::{Page, Table};
 

@@ -82,8 +82,11 @@ fn texts_are_in_the_language_of_the_document() {
         &["Ein Absatz.\n\nNoch einer.\n", "> **Warnung**\n>\n> Nach der Tabelle.\n", "> **Hinweis**"],
     );
     assert!(!text.contains("One paragraph"), "{text}");
-    // What is in another language is marked as such.
-    assert_in_order(&text, &["About both. *(en)*"]);
+    // A chapter with texts in another language says so first.
+    assert_in_order(
+        &text,
+        &["Was in diesem Teil nicht übersetzt ist, gibt es nur auf Englisch.", "About both.\n"],
+    );
 }
 
 #[test]
@@ -193,8 +196,16 @@ fn the_overview_has_every_warning() {
         texts.dedup();
         assert_eq!(texts.len(), count, "{path}: a warning is there twice");
         let mut expected: BTreeSet<(String, String)> = BTreeSet::new();
+        let contents = system.document.sections.iter().flat_map(|section| &section.content);
+        let in_text: BTreeSet<Index> = contents
+            .filter_map(|part| match part {
+                od_spec::model::Content::Prose(prose) => Some(prose),
+                od_spec::model::Content::Table(_) => None,
+            })
+            .flat_map(|prose| prose.warns_for.iter().copied())
+            .collect();
         for device in &system.devices {
-            for (id, object, entry) in device.entries() {
+            for (id, object, entry) in device.entries().filter(|(id, ..)| !in_text.contains(&id.index)) {
                 let name = device.entry_name(id).unwrap();
                 for (place, text) in [
                     (format!("{} {}", object.index, object.name), &object.warning),
@@ -210,7 +221,16 @@ fn the_overview_has_every_warning() {
                 let od_spec::model::Content::Prose(prose) = part else { continue };
                 if prose.kind == ProseKind::Warning {
                     let items = prose.items.iter().filter_map(|item| item.get(language));
-                    expected.insert((title.trim().to_owned(), items.collect::<Vec<_>>().join("\n")));
+                    let warning = items.collect::<Vec<_>>().join("\n");
+                    // What it says of objects is listed with them.
+                    for index in &prose.warns_for {
+                        let object =
+                            system.devices.iter().find_map(|device| device.objects.get(index)).unwrap();
+                        expected.insert((format!("{index} {}", object.name), warning.clone()));
+                    }
+                    if prose.warns_for.is_empty() {
+                        expected.insert((title.trim().to_owned(), warning));
+                    }
                 }
             }
         }

@@ -131,7 +131,12 @@ fn check_entry(table: &Table, row: &[String], object: &Object, entry: &Entry) {
     assert_eq!(mapping(table.cell(row, "Map")), entry.pdo, "{at}");
     assert_eq!(default(entry, table.cell(row, "Default")), entry.default, "{at}");
     let unit = entry.unit.as_ref().map_or(String::new(), |unit| {
-        if unit.scale == Ratio::ONE { unit.symbol.clone() } else { format!("{} {}", unit.scale, unit.symbol) }
+        let space = if unit.symbol == "°" { "" } else { " " };
+        if unit.scale == Ratio::ONE {
+            unit.symbol.clone()
+        } else {
+            format!("{}{space}{}", unit.scale, unit.symbol)
+        }
     });
     assert_eq!(table.cell(row, "Unit"), unit, "{at}");
     // Limits of an enum are its values; a limit that the type has anyhow is not one.
@@ -165,24 +170,15 @@ fn check_entry(table: &Table, row: &[String], object: &Object, entry: &Entry) {
     );
 }
 
-/// A text on one line, as a table has it.
+/// A text on one line, with arrows, as a table has it.
 fn flat(text: &str) -> String {
-    text.replace('\n', " ")
+    text.replace('\n', " ").replace("->", "→")
 }
 
 /// The devices' objects of an index, each different one once.
-/// A text as the English document shows it: what exists in another language only is marked, unless it has no words, as
-/// `Bit 9` and `0..3` have none.
+/// A text as the English document shows it.
 fn reported(text: &Text) -> String {
-    let shown = flat(text.get("en").unwrap_or_default());
-    let mut words = shown.split(|sign: char| !sign.is_alphabetic());
-    let has_words = words.any(|word| word.chars().count() > 2 && word.chars().any(char::is_lowercase));
-    match text.iter().next() {
-        Some((language, _)) if has_words && text.iter().all(|(code, _)| code != "en") => {
-            format!("{shown} ({language})")
-        }
-        _ => shown,
-    }
+    flat(text.get("en").unwrap_or_default())
 }
 
 fn objects(system: &System, index: Index) -> Vec<(&Dictionary, &Object)> {
@@ -266,12 +262,18 @@ fn check_bits(table: &Table, kind: &TypeKind, masks: Option<u8>) {
     }
 }
 
-fn check_values(table: &Table, kind: &TypeKind) {
+fn check_values(table: &Table, kind: &TypeKind, order: &[i128]) {
     let TypeKind::Enum(values) = kind else { panic!("values") };
     assert_eq!(table.rows.len(), values.len());
-    for (row, value) in table.rows.iter().zip(values) {
-        let shown = table.cell(row, "Value");
-        assert_eq!(shown.split(' ').next().unwrap().parse::<i128>().unwrap(), value.value);
+    let shown: Vec<i128> = table
+        .rows
+        .iter()
+        .map(|row| table.cell(row, "Value").split(' ').next().unwrap().parse().unwrap())
+        .collect();
+    let ascending: Vec<i128> = values.iter().map(|value| value.value).collect();
+    assert_eq!(shown, if order.is_empty() { ascending } else { order.to_vec() });
+    for (row, number) in table.rows.iter().zip(shown) {
+        let value = values.of(number).unwrap();
         assert_eq!(table.cell(row, "Name"), value.name);
         assert_eq!(table.cell(row, "Meaning"), flat(value.about.get("en").unwrap_or_default()));
         assert_eq!(table.cell(row, "Supported"), if value.supported { "" } else { "no" });
@@ -289,7 +291,7 @@ fn pattern_cell(bit: PatternBit) -> &'static str {
 }
 
 /// Compares one table of the manual with the model.
-fn check(system: &System, content: &TableContent, tables: &[&Table]) {
+fn check(system: &System, content: &TableContent, order: &[i128], tables: &[&Table]) {
     let table = tables[0];
     match content {
         TableContent::Overview(list) => {
@@ -321,7 +323,7 @@ fn check(system: &System, content: &TableContent, tables: &[&Table]) {
             assert_eq!(found, all.collect::<Vec<_>>());
         }
         TableContent::Bits(bits) => check_bits(table, &system.types[&bits.named_type].kind, bits.masks),
-        TableContent::Values(name) => check_values(table, &system.types[name].kind),
+        TableContent::Values(name) => check_values(table, &system.types[name].kind, order),
         TableContent::Errors(codes) => check_errors(system, table, codes, false),
         TableContent::Reactions(codes) => check_errors(system, table, codes, true),
         TableContent::States(name) => check_states(table, &system.machines[name]),
@@ -410,7 +412,8 @@ fn check_commands(table: &Table, machine: &StateMachine) {
 
 fn check_errors(system: &System, table: &Table, codes: &[u16], reactions: bool) {
     let errors = system.errors.iter().filter(|error| codes.is_empty() || codes.contains(&error.code));
-    let errors: Vec<_> = errors.collect();
+    let mut errors: Vec<_> = errors.collect();
+    errors.sort_by_key(|error| codes.iter().position(|code| *code == error.code));
     assert_eq!(table.rows.len(), errors.len());
     for (row, error) in table.rows.iter().zip(&errors) {
         assert_eq!(index(table.cell(row, "Error code")).0, error.code);
@@ -621,13 +624,13 @@ fn tables_of_the_manual_read_back_as_the_model() {
     for path in [PITCH, FULLMO] {
         let system = compile_clean(path).unwrap();
         let (pages, index) = pages(path);
-        let contents: Vec<&TableContent> =
-            system.document.tables().map(|(.., table)| &table.content).collect();
+        let contents: Vec<_> =
+            system.document.tables().map(|(.., table)| (&table.content, &table.order)).collect();
         let tables = index["tables"].as_array().unwrap();
         assert_eq!(tables.len(), contents.len());
-        for (table, content) in tables.iter().zip(contents) {
+        for (table, (content, order)) in tables.iter().zip(contents) {
             let page = &pages[&format!("{}.md", table["page"].as_str().unwrap())];
-            check(&system, content, &behind(page, table["anchor"].as_str().unwrap()));
+            check(&system, content, order, &behind(page, table["anchor"].as_str().unwrap()));
         }
     }
 }
@@ -669,7 +672,7 @@ fn the_object_reference_reads_back_as_the_model() {
                 for (table, named) in tables.into_iter().zip(types) {
                     match &named.kind {
                         TypeKind::Bits(_) => check_bits(table, &named.kind, None),
-                        TypeKind::Enum(_) => check_values(table, &named.kind),
+                        TypeKind::Enum(_) => check_values(table, &named.kind, &[]),
                     }
                 }
             }
@@ -724,8 +727,8 @@ fn units_read_back_as_the_model() {
         for row in &units.rows {
             let unit = &system.units[units.cell(row, "Name")];
             assert_eq!(units.cell(row, "Symbol"), unit.symbol);
-            let (step, symbol) = units.cell(row, "One step").split_once(' ').unwrap();
-            assert_eq!((decimal(step), symbol), (unit.scale, unit.symbol.as_str()));
+            let step = units.cell(row, "One step").strip_suffix(unit.symbol.as_str()).unwrap();
+            assert_eq!(decimal(step.trim()), unit.scale);
             for place in units.cell(row, "Entries").split(", ") {
                 let (_, object) = objects(&system, entry_id(place).index)[0];
                 let whole = entry_id(place).sub.0 == 0 && object.is_structured();
@@ -764,14 +767,14 @@ fn errata_read_back_as_the_model() {
                 .collect();
             assert_eq!(errata.cell(row, "Entries"), places.join(", "));
             assert_eq!(errata.cell(row, "Kind"), erratum.kind.word());
-            for (title, text) in [
-                ("Place", &erratum.place),
-                ("The manual prints", &erratum.prints),
-                ("Read as", &erratum.reads),
-                ("Why", &erratum.because),
-            ] {
+            for (title, text) in
+                [("Place", &erratum.place), ("Read as", &erratum.reads), ("Why", &erratum.because)]
+            {
                 assert_eq!(errata.cell(row, title), reported(text), "erratum {}", at + 1);
             }
+            // What is quoted keeps its characters.
+            let prints = erratum.prints.get("en").unwrap_or_default().replace('\n', " ");
+            assert_eq!(errata.cell(row, "The manual prints"), prints, "erratum {}", at + 1);
         }
     }
 }

@@ -23,6 +23,11 @@ const NAMES: [(&str, &str); 6] = [
     ("osterholz", "osterholy"),
 ];
 
+/// As pages write the bytes of a default.
+fn bytes(text: &str) -> String {
+    text.bytes().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().concat()
+}
+
 /// As generated code writes the bytes of a text.
 fn escaped(text: &str) -> String {
     text.bytes().map(|byte| format!("\\x{byte:02X}")).collect::<Vec<_>>().concat()
@@ -38,11 +43,12 @@ fn renamed(text: &str) -> String {
             (name.to_uppercase(), other_name.to_uppercase()),
         ];
         spellings.iter().fold(text, |text, (name, other_name)| {
-            text.replace(name, other_name).replace(&escaped(name), &escaped(other_name))
+            let text = text.replace(name, other_name).replace(&escaped(name), &escaped(other_name));
+            text.replace(&bytes(name), &bytes(other_name))
         })
     });
     // A word of style sheets holds the name of a maker.
-    text.replace("floau", "float")
+    text.replace("floau", "float").replace("Floau", "Float")
 }
 
 /// Everything that a specification becomes: name and contents of each file.

@@ -151,7 +151,7 @@ fn what_the_manual_does_not_say_is_marked_as_the_standards_word() {
     let acceleration = entry(0x6083, 0);
     assert_eq!(acceleration.data_type, DataType::Unsigned32);
     let of_the_standard: Vec<Fact> = acceleration.facts.said_by(Author::Library).collect();
-    assert_eq!(of_the_standard, [Fact::Type, Fact::Access, Fact::Mapping, Fact::Category]);
+    assert_eq!(of_the_standard, [Fact::Type, Fact::Access, Fact::Mapping, Fact::Category, Fact::Search]);
     assert_eq!(acceleration.unit.as_ref().unwrap().name, "revolution per second squared");
     // 3511h: type and access are in Table 2, nothing of a standard's.
     let edges = entry(0x3511, 1);

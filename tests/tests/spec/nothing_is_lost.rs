@@ -78,9 +78,10 @@ fn values(table: &Keys, key: &str) -> [&'static str; 2] {
         (_, "send") => ["1", "3"],
         (_, "to") => ["b", "Fault"],
         (_, "by-device") => ["event", "automatic"],
-        (_, "about" | "warning" | "priority" | "reaction" | "reset" | "event" | "action") => {
+        (_, "about" | "gap" | "warning" | "priority" | "reaction" | "reset" | "event" | "action") => {
             ["planted", "also planted"]
         }
+        (_, "search") => ["{en: planted}", "{de: [also, planted]}"],
         (table, key) => panic!("a value is needed for `{key}` of {table}"),
     }
 }

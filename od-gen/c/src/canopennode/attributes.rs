@@ -32,7 +32,8 @@ impl Attributes {
         set(TSRDO, in_srdos(Direction::Transmit));
         set(RSRDO, in_srdos(Direction::Receive));
         set(MULTI_BYTE, is_multi_byte(entry));
-        set(STRING, matches!(entry.data_type.family(), Family::VisibleString | Family::UnicodeString));
+        // A text to the stack ends at its first byte of 0, which a UNICODE_STRING has in nearly every character.
+        set(STRING, entry.data_type.family() == Family::VisibleString);
         Self(bits)
     }
 

@@ -2,7 +2,9 @@
 //! stops in the stack's own files.
 
 use od_spec::diag::{Code, Diagnostic, Diagnostics, codes};
-use od_spec::model::{Access, DataType, Dictionary, Direction, EntryId, Index, Object, PdoTarget, SubIndex};
+use od_spec::model::{
+    Access, DataType, Dictionary, Direction, EntryId, Family, Index, Object, Pdo, PdoTarget, SubIndex,
+};
 use od_spec::source::Span;
 
 use super::node_id;
@@ -25,19 +27,43 @@ pub(super) fn check(device: &Dictionary, objects: &[StackObject<'_>], diagnostic
     findings.mappings();
     findings.identifiers();
     findings.octets(objects);
+    findings.types();
+}
+
+/// The type that the stack reads an entry as, when it starts or when it sets up a PDO.
+const fn type_in_stack(id: EntryId) -> Option<DataType> {
+    Some(match (id.index.0, id.sub.0) {
+        (0x1001 | 0x100D | 0x1019 | 0x1600..0x1800 | 0x1A00..0x1C00, 0)
+        | (0x1400..0x1600 | 0x1800..0x1A00, 2) => DataType::Unsigned8,
+        (0x100C | 0x1015 | 0x1017, 0) => DataType::Unsigned16,
+        (0x1005 | 0x1006 | 0x1007 | 0x1012 | 0x1014, 0)
+        | (0x1016 | 0x1600..0x1800 | 0x1A00..0x1C00, 1..)
+        | (0x1200..0x1300, 1 | 2)
+        | (0x1400..0x1600 | 0x1800..0x1A00, 1) => DataType::Unsigned32,
+        _ => return None,
+    })
+}
+
+/// The first of several names, and how many more there are.
+fn list(names: &[&str]) -> String {
+    const SHOWN: usize = 4;
+    match names.len().checked_sub(SHOWN) {
+        Some(more @ 1..) => format!("{} and {more} more", names[..SHOWN].join(", ")),
+        Some(_) | None => names.join(", "),
+    }
 }
 
 /// Reports which rules are not kept, as the stack extends the objects itself.
 pub(super) fn left_to_stack(device: &Dictionary, entries: &[EntryId], diagnostics: &mut Diagnostics) {
-    for id in entries {
-        let Some(entry) = device.entry(*id) else { continue };
-        let message = format!(
-            "{id} ({}) has limits, values, a lock or a condition, and CANopenNode keeps them with checks of its own only",
-            entry.name
-        );
-        let help = "look at what the stack checks there, or let the application look at the value in the stack's callbacks";
-        diagnostics.push(Diagnostic::new(codes::STACK_DIFFERS, entry.span, message).help(help));
-    }
+    let named = entries.iter().filter_map(|id| {
+        let entry = device.entry(*id)?;
+        Some((entry.span, format!("{id} ({})", entry.name)))
+    });
+    Findings { device, diagnostics }.report_all(
+        &named.collect::<Vec<_>>(),
+        |names| format!("{names}: has limits, values, a lock or a condition, and CANopenNode keeps checks of its own only"),
+        "look at what the stack checks there, or let the application look at the value in the stack's callbacks",
+    );
 }
 
 struct Findings<'f, 'd> {
@@ -78,42 +104,42 @@ impl Findings<'_, '_> {
         }
     }
 
-    /// Objects that the usual configuration does not do without.
+    /// Objects that belong to others, or to something outside of the dictionary.
     fn configured(&mut self) {
-        let missing = [
-            (
-                !self.has(0x1014),
-                0x1014,
-                "COB-ID EMCY",
-                "compile the stack with `CO_CONFIG_EM` without `CO_CONFIG_EM_PRODUCER`",
-            ),
-            (
-                self.has(0x1005) && !self.has(0x1006),
-                0x1006,
-                "communication cycle period",
-                "compile the stack with `CO_CONFIG_SYNC` set to 0, which leaves out SYNC",
-            ),
-            (
-                !self.has(0x1018),
-                0x1018,
-                "identity object",
-                "the stack's example reads the identity for LSS: give it what it needs there",
-            ),
-        ];
-        for (is_missing, index, name, otherwise) in missing {
-            if is_missing {
+        if !self.has(0x1018) {
+            let message = format!(
+                "`{}` has no 1018h (identity object), and CANopenNode's example reads the identity for LSS",
+                self.device.key
+            );
+            let help = "add 1018h, or give the stack what it needs there";
+            self.report(codes::STACK_DIFFERS, self.device.span, message, help);
+        }
+        for (there, missing) in [(0x100C, 0x100D), (0x100D, 0x100C)] {
+            if let Some(object) = self.device.objects.get(&Index(there))
+                && !self.has(missing)
+            {
                 let message = format!(
-                    "`{}` has no {} ({name}), and CANopenNode in its usual configuration needs it",
-                    self.device.key,
-                    Index(index)
+                    "there is {} and no {}, so that CANopenNode answers no node guarding and takes no notice of {0}",
+                    Index(there),
+                    Index(missing)
                 );
                 self.report(
                     codes::STACK_DIFFERS,
-                    self.device.span,
+                    object.span,
                     message,
-                    format!("add {}, or {otherwise}", Index(index)),
+                    format!("add {}, or remove {}", Index(missing), Index(there)),
                 );
             }
+        }
+        if !self.has(0x1200)
+            && let Some((_, object)) = self.device.objects.range(Index(0x1201)..=Index(0x127F)).next()
+        {
+            let message = format!(
+                "`{}` has {} (an SDO server) and no 1200h, and CANopenNode does not compile without it",
+                self.device.key, object.index
+            );
+            let help = "add 1200h, the first SDO server; in a specification, the library `cia301` has it";
+            self.report(codes::STACK_REFUSES, object.span, message, help);
         }
         if let Some(object) =
             self.device.objects.range(Index(0x1301)..=Index(0x1340)).map(|(_, object)| object).next()
@@ -131,18 +157,9 @@ impl Findings<'_, '_> {
         }
     }
 
-    /// Heartbeat consumers: the stack names the number of elements whether it uses it or not.
+    /// Heartbeat consumers: the stack counts the elements.
     fn consumers(&mut self, objects: &[StackObject<'_>]) {
-        let object = objects.iter().find(|object| object.object.index.0 == 0x1016);
-        let Some(object) = object else {
-            let message = format!(
-                "`{}` has no 1016h (consumer heartbeat time), and CANopenNode in its usual configuration needs it",
-                self.device.key
-            );
-            let help = "add 1016h, or compile the stack with `CO_CONFIG_HB_CONS` set to 0";
-            self.report(codes::STACK_DIFFERS, self.device.span, message, help);
-            return;
-        };
+        let Some(object) = objects.iter().find(|object| object.object.index.0 == 0x1016) else { return };
         match object.elements() {
             Some(1..=MOST_CONSUMERS) => {}
             Some(_) | None => self.report(
@@ -213,86 +230,119 @@ impl Findings<'_, '_> {
             let span = span(first + highest, self.device);
             self.report(codes::STACK_DIFFERS, span, message, help);
         }
-        for place in numbers {
-            let Some(object) = self.device.objects.get(&Index(first + place)) else { continue };
-            self.communication(object);
-        }
+        let objects = numbers.iter().filter_map(|place| self.device.objects.get(&Index(first + place)));
+        let lacks = |(object, sub): &(&Object, u8)| object.entry(SubIndex(*sub)).is_none();
+        let lacking = objects.flat_map(|object| [(object, 1), (object, 2)]).filter(lacks);
+        let lacking: Vec<_> =
+            lacking.map(|(object, sub)| (object.span, format!("{}.{sub}", object.index))).collect();
+        self.report_all(
+            &lacking,
+            |names| format!("{names}: missing, and CANopenNode does not start without it"),
+            "add the sub-index",
+        );
     }
 
-    /// Entries without which the stack does not start a PDO.
-    fn communication(&mut self, object: &Object) {
-        for sub in [1, 2] {
-            if object.entry(SubIndex(sub)).is_none() {
-                let message = format!(
-                    "{} has no sub-index {sub}, and CANopenNode does not start without it",
-                    object.index
-                );
-                self.report(codes::STACK_DIFFERS, object.span, message, format!("add sub-index {sub}"));
-            }
-        }
-    }
-
-    /// Mappings that the stack takes otherwise.
+    /// PDOs with which the stack starts with an error, in 1001h and as an emergency: it stays pre-operational where the application lets it.
     fn mappings(&mut self) {
-        for pdo in &self.device.pdos {
+        let (mut empty, mut refused) = (Vec::new(), Vec::new());
+        for pdo in self.device.pdos.iter().filter(|pdo| pdo.valid) {
             let name = format!("{} {}", pdo.direction.pdo(), pdo.number);
             let span =
                 self.device.objects.get(&Index(pdo.mapping_index())).map_or(pdo.span, |object| object.span);
-            if pdo.map.len() > MOST_MAPPED {
-                let message =
-                    format!("{name} maps {} entries, and CANopenNode at most {MOST_MAPPED}", pdo.map.len());
-                self.report(
-                    codes::STACK_DIFFERS,
-                    span,
-                    message,
-                    "map fewer entries: the stack does not send or take this PDO",
-                );
-            }
-            let in_bits = pdo.map.iter().find(|mapped| mapped.bits % 8 != 0);
-            if let Some(mapped) = in_bits {
-                let what = match mapped.target {
-                    PdoTarget::Entry(id) => id.to_string(),
-                    PdoTarget::Dummy(data_type) => data_type.to_string(),
-                };
-                let message =
-                    format!("{name} maps {what} with {} bits, and CANopenNode whole bytes", mapped.bits);
-                let help = "compile the stack with `CO_CONFIG_PDO_BITWISE_MAPPING`";
-                self.report(codes::STACK_DIFFERS, span, message, help);
+            if pdo.map.is_empty() {
+                empty.push((span, name));
+            } else if let Some(reason) = self.refusal(pdo) {
+                refused.push((span, format!("{name} ({reason})")));
             }
         }
+        self.report_all(
+            &empty,
+            |names| {
+                format!("{names}: valid without a mapping, and CANopenNode starts with an error (1001h, emergency 8210h)")
+            },
+            "map something, or give the PDO out as not valid, with bit 31 of its COB-ID",
+        );
+        self.report_all(
+            &refused,
+            |names| {
+                format!("{names}: CANopenNode refuses the mapping, and starts with an error (1001h, emergency 8210h)")
+            },
+            "correct the mapping, or give the PDO out as not valid, with bit 31 of its COB-ID",
+        );
     }
 
-    /// Bytes of which there may be fewer than there is room for: the stack has a length for texts alone.
+    /// Why the stack refuses the mapping of a PDO.
+    fn refusal(&self, pdo: &Pdo) -> Option<String> {
+        if pdo.map.len() > MOST_MAPPED {
+            return Some(format!("{} entries, at most {MOST_MAPPED}", pdo.map.len()));
+        }
+        let bits: u32 = pdo.map.iter().map(|mapped| u32::from(mapped.bits)).sum();
+        if bits > 64 {
+            return Some(format!("{bits} bits, at most 64"));
+        }
+        pdo.map.iter().find_map(|mapped| {
+            let PdoTarget::Entry(id) = mapped.target else { return None };
+            let Some(entry) = self.device.entry(id) else { return Some(format!("{id} is not there")) };
+            (!entry.pdo.allows(pdo.direction)).then(|| format!("{id} may not be mapped in this direction"))
+        })
+    }
+
+    /// Reports what is the same of several places once, at the first.
+    fn report_all(&mut self, places: &[(Span, String)], message: impl Fn(&str) -> String, help: &str) {
+        let Some((span, _)) = places.first() else { return };
+        let names: Vec<&str> = places.iter().map(|(_, name)| name.as_str()).collect();
+        self.report(codes::STACK_DIFFERS, *span, message(&list(&names)), help);
+    }
+
+    /// Bytes of which there may be fewer than there is room for: the stack has a length for texts of bytes alone.
     fn octets(&mut self, objects: &[StackObject<'_>]) {
+        let mut whole = Vec::new();
         for slot in objects.iter().flat_map(StackObject::slots) {
             let entry = slot.entry;
             let is_fixed = entry.access == Access::Const && entry.default.is_some();
-            if entry.data_type == DataType::OctetString && slot.variable().is_some() && !is_fixed {
+            let is_of_bytes = matches!(entry.data_type.family(), Family::OctetString | Family::UnicodeString);
+            if is_of_bytes && slot.variable().is_some() && !is_fixed {
+                whole.push((entry.span, format!("{} ({}, {} bytes)", slot.id, entry.name, slot.length)));
+            }
+        }
+        self.report_all(
+            &whole,
+            |names| {
+                format!("{names}: always whole for CANopenNode, which knows no shorter OCTET_STRING or UNICODE_STRING")
+            },
+            "do nothing if all bytes are always used; else leave it to the application, as a DOMAIN",
+        );
+    }
+
+    /// Standard objects of another type than CiA 301 gives them, with which the stack does not start.
+    fn types(&mut self) {
+        let device = self.device;
+        for (id, _, entry) in device.entries() {
+            let Some(expected) = type_in_stack(id) else { continue };
+            if entry.data_type.bits() != expected.bits() {
                 let message = format!(
-                    "{} ({}) always has {} bytes for CANopenNode, which knows no shorter OCTET_STRING",
-                    slot.id, entry.name, slot.length
+                    "{id} ({}) is {}, and CANopenNode starts only with {}",
+                    entry.name, entry.data_type, expected
                 );
-                let help =
-                    "do nothing if all bytes are always used; else leave it to the application, as a DOMAIN";
-                self.report(codes::STACK_DIFFERS, entry.span, message, help);
+                let help = format!("give it the type of CiA 301, {expected}");
+                self.report(codes::STACK_REFUSES, entry.span, message, help);
             }
         }
     }
 
     /// Identifiers that the stack would change, and those that it leaves alone.
     fn identifiers(&mut self) {
-        for (id, entry) in node_id::changed_by_stack(self.device) {
-            let message = format!(
-                "{id} ({}) is the same for every node, and CANopenNode adds the node-ID to it, because it is a base of the pre-defined connection set",
-                entry.name
-            );
-            self.report(
-                codes::STACK_DIFFERS,
-                entry.span,
-                message,
-                "choose another identifier, or let the default be `$NODEID` plus this one",
-            );
-        }
+        let changed = node_id::changed_by_stack(self.device);
+        let changed = changed.into_iter().map(|(id, entry)| (entry.span, format!("{id} ({})", entry.name)));
+        self.report_all(
+            &changed.collect::<Vec<_>>(),
+            |names| {
+                format!(
+                    "{names}: the same for every node, and CANopenNode adds the node-ID, because it is a base of the pre-defined connection set"
+                )
+            },
+            "choose another identifier, or let the default be `$NODEID` plus this one",
+        );
         let left: Vec<String> =
             node_id::left_to_the_device(self.device).iter().map(|default| default.id.to_string()).collect();
         if !left.is_empty() {

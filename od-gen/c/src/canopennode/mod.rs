@@ -6,6 +6,7 @@
 mod attributes;
 mod cell;
 mod counters;
+mod custom;
 mod demands;
 mod docs;
 mod groups;
@@ -53,6 +54,10 @@ pub(super) fn files(
     head(&mut tables, &about("Rules"));
     tables.gap();
     tables::print(&mut tables, plan, &rules, &node_id::left_to_the_device(plan.device), diagnostics);
+    let mut settings = Text::default();
+    custom::print(&mut settings, plan.device);
+    let settings =
+        guarded(&about("Settings of CANopenNode for the dictionary"), "CO_DRIVER_CUSTOM_H", &settings);
     let file = |name: &str, bytes: Vec<u8>, purpose: &str| Artifact {
         path: format!("{folder}/{name}"),
         bytes,
@@ -61,6 +66,7 @@ pub(super) fn files(
     vec![
         file("OD.h", header.into_bytes(), "the dictionary for CANopenNode"),
         file("OD.c", code.into_bytes(), "the dictionary for CANopenNode: its values"),
+        file("CO_driver_custom.h", settings.into_bytes(), "the configuration of CANopenNode that it needs"),
         file("OD_rules.c", tables.into_bytes(), "limits, locks and conditions for CANopenNode"),
         file("OD_extension.h", EXTENSION_H.into(), "what keeps them, for the application"),
         file("OD_extension.c", EXTENSION_C.into(), "what keeps them"),

@@ -53,7 +53,7 @@ fn numbers(page: &mut Page<'_, '_>, entry: &PlannedEntry<'_>) {
     page.text.doc(&[format!("{about}\n{facts}."), relations(plan, entry)].concat());
     let row = plan.row(entry.id).unwrap_or(od_gen::plan::NONE);
     page.define(&["ENTRY", &entry.name], &format!("({row}U)"), &what);
-    page.define(&["INDEX", &entry.name], &format!("(0x{:04X}U)", entry.id.index.0), &what);
+    page.define(&index_name(entry), &format!("(0x{:04X}U)", entry.id.index.0), &what);
     page.define(&["SUB", &entry.name], &format!("({}U)", entry.id.sub.0), &what);
     let raw = Raw::of(plan, &entry.kind);
     if !plan.is_stated(entry) {
@@ -73,6 +73,11 @@ fn numbers(page: &mut Page<'_, '_>, entry: &PlannedEntry<'_>) {
             }
         }
     }
+}
+
+/// The parts of the macro that has the index of an entry.
+pub(crate) fn index_name<'e>(entry: &'e PlannedEntry<'_>) -> [&'e str; 2] {
+    ["INDEX", &entry.name]
 }
 
 fn warned(page: &Page<'_, '_>, about: &str, warning: &Text) -> String {

@@ -5,6 +5,7 @@ mod entries;
 mod raw;
 mod tables;
 
+pub(crate) use self::entries::index_name;
 use super::names::Names;
 use super::page::Page;
 use super::text::{Text, head};

@@ -138,7 +138,8 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         if !templates.is_empty() {
             let of_node = used.documented(path, report);
             let system = of_node.as_ref().unwrap_or(system);
-            let options = od_documents::options(system, &args.device, None);
+            let mut options = od_documents::options(system, &args.device, None);
+            options.origin = Some(od_documents::origin(sources));
             match od_documents::artifacts(system, "docs/", stem, &options, &templates) {
                 Ok(artifacts) => set.extend(artifacts),
                 Err(error) => return Problem::Template(error, None).show(report),

@@ -128,7 +128,7 @@ fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
             (old, read(&args.old)?, Scope::Everything)
         }
         (None, Some(new)) => {
-            let scope = scope(Source::of(&args.old), Source::of(new));
+            let scope = scope_of(&args.old, new);
             let (before, after) = (read(&args.old), read(new));
             (before?, after?, scope)
         }
@@ -145,7 +145,12 @@ fn difference(args: &DiffArgs, report: &Report) -> Result<Difference, u8> {
         device: device.as_deref(),
         nodes: nodes.as_ref().map(|(old, new)| (old, new)),
     };
-    compare(&question).map_err(|unpaired| {
+    answer(&question, report)
+}
+
+/// What differs, or what is wrong with the question.
+pub(crate) fn answer(question: &Question<'_>, report: &Report) -> Result<Difference, u8> {
+    compare(question).map_err(|unpaired| {
         let keys = |keys: &[String]| keys.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
         let help = match &unpaired {
             Unpaired::NoSuchDevice { keys: there, .. } => format!("the devices are {}", keys(there)),
@@ -232,6 +237,11 @@ impl Source {
             Self::Specification
         }
     }
+}
+
+/// The facts that two files can state.
+pub(crate) fn scope_of(old: &Path, new: &Path) -> Scope {
+    scope(Source::of(old), Source::of(new))
 }
 
 /// The facts that both kinds of file can state.

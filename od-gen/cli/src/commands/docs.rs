@@ -3,16 +3,21 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use od_documents as docs;
+use od_diff::{Change, Question, Row, row};
+use od_documents::{self as docs, Changed, Edition, InLanguage, Siblings, Since};
 use od_gen::Artifact;
 use od_gen::files::Existing;
 use od_spec::diag::{Diagnostic, codes};
+use od_spec::file_name;
 use od_spec::model::System;
 use od_spec::rule_codes;
 
+use crate::commands::diff::{answer, scope_of};
 use crate::exit::{ERRORS, SUCCESS};
 use crate::language::language;
+use crate::logo;
 use crate::output::{clash, forced, write};
+use crate::pdf;
 use crate::report::{Report, print_json};
 use crate::specs::{self, stem};
 use crate::templates::DocsFormat;
@@ -31,9 +36,10 @@ pub(crate) struct DocsArgs {
     #[arg(long, value_name = "KEY")]
     pub device: Vec<String>,
 
-    /// Language of the documents, such as `en` or `de` [default: the first of the specification]
+    /// Language of the documents, such as `en` or `de`; with several, each has a directory of its own, and pages link to the
+    /// same page in another [default: the first of the specification]
     #[arg(long, value_name = "CODE")]
-    pub lang: Option<String>,
+    pub lang: Vec<String>,
 
     /// Format; can be given several times [default: md, or with --templates none but theirs]
     #[arg(long, value_enum, value_name = "FORMAT")]
@@ -43,6 +49,21 @@ pub(crate) struct DocsArgs {
     /// errata after it
     #[arg(long)]
     pub errata: bool,
+
+    /// Mark what changed since this earlier specification, EDS, DCF, XDD or XDC file, and list the changes
+    #[arg(long, value_name = "OLD")]
+    pub since: Option<PathBuf>,
+    /// With `--format print`: gather what the manual leaves open in an appendix for its maker
+    #[arg(long)]
+    pub open_questions: bool,
+
+    /// With `--format print`: logo of the maker on the cover, an SVG or PNG file
+    #[arg(long, value_name = "FILE")]
+    pub logo: Option<PathBuf>,
+
+    /// With `--format print`: also make the PDF, with WeasyPrint, which has to be installed
+    #[arg(long, conflicts_with_all = ["dump_context", "export_templates"])]
+    pub pdf: bool,
 
     /// Directory with templates of your own, which override those of the format
     #[arg(long, value_name = "DIR")]
@@ -65,48 +86,53 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
     if let Some(target) = &args.export_templates {
         return export(args, target, report);
     }
-    if args.errata && !args.format.contains(&DocsFormat::Print) && args.templates.is_none() {
-        return report.refuse(
-            Diagnostic::without_place(codes::BAD_NOTATION, "`--errata` is about the printed manual alone")
-                .help("pages for the screen always show the errata; for the manual, add `--format print`"),
-        );
+    if let Some(refused) = without_print(args) {
+        return report.refuse(refused);
     }
+    let logo = match args.logo.as_deref().map(logo::read).transpose() {
+        Ok(logo) => logo.unwrap_or_default(),
+        Err(problem) => return report.refuse(problem),
+    };
     let specs = match specs::all(&args.specs, directory, report) {
         Ok(specs) => specs,
         Err(code) => return code,
     };
     let Some(systems) = compile_all(&specs, report) else { return ERRORS };
     for key in &args.device {
-        if !systems.iter().any(|(_, system)| system.device(key).is_some()) {
-            return report.unknown_device(systems.iter().map(|(_, system)| system), key);
+        if !systems.iter().any(|read| read.system.device(key).is_some()) {
+            return report.unknown_device(systems.iter().map(|read| &read.system), key);
         }
     }
-    let mut args = args.clone();
-    if let Some(code) = &args.lang {
-        match language(code, systems.iter().map(|(_, system)| system)) {
-            Ok(known) => args.lang = Some(known),
-            Err(diagnostic) => return report.refuse(*diagnostic),
-        }
-    }
+    let languages = match languages(&args.lang, &systems) {
+        Ok(languages) => languages,
+        Err(diagnostic) => return report.refuse(*diagnostic),
+    };
+    let shows = |read: &&Read| {
+        args.device.is_empty() || args.device.iter().any(|key| read.system.device(key).is_some())
+    };
+    let since = args.since.as_deref().map(|old| since(old, &specs, &systems, report)).transpose();
+    let since = match since {
+        Ok(since) => since,
+        Err(code) => return code,
+    };
+    let gaps = if args.open_questions { docs::Gaps::Gathered } else { docs::Gaps::LeftOut };
+    let wanted = docs::Options { errata: args.errata, gaps, logo, since, ..docs::Options::default() };
+    let editions = editions(systems.iter().filter(shows), &languages, &args.device, &wanted);
     if args.dump_context {
-        return systems.iter().fold(SUCCESS, |code, (_, system)| {
-            let options = options(system, &args);
-            code.max(print_json(&docs::dump_context(system, &options)))
+        // Pages for the screen say in its place what is open.
+        let is_print = args.format.contains(&DocsFormat::Print);
+        let gaps = if is_print { gaps } else { docs::Gaps::InPlace };
+        return editions.into_iter().fold(SUCCESS, |code, Edition { system, options, .. }| {
+            code.max(print_json(&docs::dump_context(system, &docs::Options { gaps, ..options })))
         });
     }
-    let templates = match templates(&formats(&args), args.templates.as_deref()) {
+    let templates = match templates(&formats(args), args.templates.as_deref()) {
         Ok(templates) => templates,
         Err(problem) => return problem.show(report),
     };
-    let shows = |(_, system): &&(String, System)| {
-        args.device.is_empty() || args.device.iter().any(|key| system.device(key).is_some())
-    };
-    let print = || {
-        let sets = systems
-            .iter()
-            .filter(shows)
-            .map(|(stem, system)| docs::artifacts(system, "", stem, &options(system, &args), &templates));
-        sets.collect::<Result<Vec<_>, _>>().map(|sets| sets.concat())
+    let print = || match editions.as_slice() {
+        [Edition { system, folder, options }] => docs::artifacts(system, "", folder, options, &templates),
+        several => docs::with_start_page(several, &templates),
     };
     let set = match &args.templates {
         Some(_) => printed(report, print),
@@ -122,13 +148,125 @@ pub(crate) fn run(args: &DocsArgs, directory: &Path, report: &Report) -> u8 {
                 .help("print specifications of one file name into different directories, with `--out`"),
         );
     }
-    write(&args.out, &set, forced(args.force, Existing::Generated), "", report)
+    let code = write(&args.out, &set, forced(args.force, Existing::Generated), "", report);
+    if args.pdf && code == SUCCESS {
+        let manuals = set.iter().filter(|artifact| artifact.path.ends_with(MANUAL));
+        return pdf::make(&mut manuals.map(|manual| args.out.join(&manual.path)), report);
+    }
+    code
 }
 
-/// What the documents of a specification show.
-fn options(system: &System, args: &DocsArgs) -> docs::Options {
-    let options = docs::options(system, &args.device, args.lang.as_deref());
-    docs::Options { errata: args.errata, ..options }
+/// The page that is the whole printed manual.
+const MANUAL: &str = "manual.html";
+
+/// Why options about the printed manual have no effect: nothing is printed.
+fn without_print(args: &DocsArgs) -> Option<Diagnostic> {
+    if args.format.contains(&DocsFormat::Print) {
+        return None;
+    }
+    let own = args.templates.is_some();
+    let (option, help) = if args.errata && !own {
+        ("--errata", "pages for the screen always show the errata; for the manual, add `--format print`")
+    } else if args.open_questions && !own {
+        (
+            "--open-questions",
+            "pages for the screen say in its place what is open; for the manual, add `--format print`",
+        )
+    } else if args.logo.is_some() && !own {
+        ("--logo", "add `--format print`")
+    } else if args.pdf {
+        ("--pdf", "add `--format print`")
+    } else {
+        return None;
+    };
+    let message = format!("`{option}` is about the printed manual alone");
+    Some(Diagnostic::without_place(codes::BAD_NOTATION, message).help(help))
+}
+
+/// A specification that was read.
+struct Read {
+    /// Name of its file without the ending.
+    stem: String,
+    system: System,
+    origin: docs::Origin,
+}
+
+/// The languages of a command line, as they are written; one that is named twice counts once.
+fn languages(codes: &[String], systems: &[Read]) -> Result<Vec<String>, Box<Diagnostic>> {
+    let mut languages = Vec::new();
+    for code in codes {
+        let known = language(code, systems.iter().map(|read| &read.system))?;
+        if !languages.contains(&known) {
+            languages.push(known);
+        }
+    }
+    Ok(languages)
+}
+
+/// What changed since an earlier state of the only specification.
+fn since(old: &Path, specs: &[PathBuf], systems: &[Read], report: &Report) -> Result<Since, u8> {
+    let ([path], [new]) = (specs, systems) else {
+        let message = format!("`--since` compares one specification, and {} are printed", specs.len());
+        return Err(report.refuse(Diagnostic::without_place(codes::BAD_NOTATION, message).help(
+            "name the specification that the earlier file is compared with: `odgen docs SPEC --since OLD`",
+        )));
+    };
+    let (used, _) = report.compile_with_sources(old).ok_or(ERRORS)?;
+    let scope = scope_of(old, path);
+    let question = Question { old: &used.system, new: &new.system, scope, device: None, nodes: None };
+    let difference = answer(&question, report)?;
+    let changed = |device: Option<&str>, change: &Change| {
+        let Row { sign, place, values, consequences } = row(change);
+        let device = device.map(str::to_owned);
+        Changed { device, index: change.place.index(), sign, place, values, consequences }
+    };
+    let of_devices = difference
+        .devices
+        .iter()
+        .flat_map(|device| device.changes.iter().map(|change| changed(Some(&device.key), change)));
+    let of_system = difference.system.iter().map(|change| changed(None, change));
+    let name =
+        old.file_name().map_or_else(|| file_name::shown(old), |name| file_name::shown(Path::new(name)));
+    Ok(Since { name, changes: of_system.chain(of_devices).collect() })
+}
+
+/// Each specification in each language, in a folder of its own, with what is wanted of all.
+fn editions<'a>(
+    systems: impl Iterator<Item = &'a Read> + Clone,
+    languages: &[String],
+    devices: &[String],
+    wanted: &docs::Options,
+) -> Vec<Edition<'a>> {
+    let is_single = systems.clone().count() == 1;
+    let edition = |Read { stem, system, origin }: &'a Read, language: Option<&String>| {
+        let docs::Options { devices, language: code, code_names, .. } =
+            docs::options(system, devices, language.map(String::as_str));
+        let folder = match language.filter(|_| languages.len() > 1) {
+            Some(language) => format!("{stem}/{language}"),
+            None => stem.clone(),
+        };
+        let siblings = match languages {
+            [] | [_] if is_single => Siblings::default(),
+            [] | [_] => Siblings { start_page: "../index.html".to_owned(), languages: Vec::new() },
+            several => Siblings {
+                start_page: "../../index.html".to_owned(),
+                languages: several.iter().filter(|other| Some(*other) != language).map(in_language).collect(),
+            },
+        };
+        let origin = Some(origin.clone());
+        let options =
+            docs::Options { devices, language: code, code_names, siblings, origin, ..wanted.clone() };
+        Edition { system, folder, options }
+    };
+    match languages {
+        [] => systems.map(|one| edition(one, None)).collect(),
+        codes => systems.flat_map(|one| codes.iter().map(move |code| edition(one, Some(code)))).collect(),
+    }
+}
+
+/// The same pages in another language, as pages in one language find them.
+fn in_language(code: &String) -> InLanguage {
+    InLanguage { language: code.clone(), name: docs::language_name(code), folder: format!("../{code}") }
 }
 
 /// The formats to print; a user's own templates come alone unless a format is named.
@@ -140,10 +278,11 @@ fn formats(args: &DocsArgs) -> Vec<DocsFormat> {
 }
 
 /// Compiles everything, so that all messages are shown; `None` if any has errors.
-fn compile_all(specs: &[PathBuf], report: &Report) -> Option<Vec<(String, System)>> {
+fn compile_all(specs: &[PathBuf], report: &Report) -> Option<Vec<Read>> {
     let systems = specs.iter().map(|path| {
-        let (used, _) = report.compile_with_sources(path)?;
-        Some((stem(path), used.documented(path, report).unwrap_or(used.system)))
+        let (used, sources) = report.compile_with_sources(path)?;
+        let system = used.documented(path, report).unwrap_or(used.system);
+        Some(Read { stem: stem(path), system, origin: docs::origin(&sources) })
     });
     systems.collect::<Vec<_>>().into_iter().collect()
 }

@@ -131,3 +131,37 @@ fn a_file_that_cannot_be_read_does_not_stop_the_others() {
     assert!(said.starts_with("error[OD0101]: cannot read missing.eds: no such file"), "{said}");
     assert!(said.contains("\nfan.eds:147:12: error[EDS406]"), "{said}");
 }
+
+/// As in an editor: the file that `spec:` names has the names, types and limits.
+#[test]
+fn a_parameter_file_is_checked_on_the_device_that_it_names() {
+    let scratch = Scratch::new("parameters");
+    fs::create_dir(scratch.0.join("hall")).unwrap();
+    scratch.file("lamp.od.yaml", LAMP);
+    let check = |text: &str| {
+        scratch.file("hall/node5.yaml", text);
+        let output = odgen(&scratch.0, &["check", "hall/node5.yaml"]);
+        (code(&output), stderr(&output))
+    };
+    let right = "od-parameters: 1\nspec: ../lamp.od.yaml\nnode: 5\nparameters: {brightness: 60 %}\n";
+    assert_eq!(check(right), (0, "hall/node5.yaml: nothing found\n".to_owned()));
+    let (code_of_value, said) = check(&right.replace("60", "101"));
+    assert_eq!(code_of_value, 1);
+    assert!(said.contains("error[OD0406]") && said.contains(" --> hall/node5.yaml:4:"), "{said}");
+    let (_, said) = check(&right.replace("brightness", "brightnes"));
+    assert!(said.contains("did you mean `brightness`?"), "{said}");
+    let (code_of_file, said) = check(&right.replace("lamp", "lanp"));
+    assert_eq!(code_of_file, 1);
+    assert!(said.contains("cannot read `../lanp.od.yaml`: no such file"), "{said}");
+    // What cannot describe a device is not read any further.
+    let (code_of_file, said) = check(&right.replace("../lamp.od.yaml", "node5.yaml"));
+    assert_eq!(code_of_file, 1);
+    assert!(said.contains("error[OD0120]"), "{said}");
+    // Without `spec:`, nothing could be said about its values.
+    let (code_of_none, said) = check("od-parameters: 1\nparameters: {brightness: 60 %}\n");
+    assert_eq!(code_of_none, 1);
+    assert!(said.contains("error[OD0120]") && said.contains("if `spec:` names its specification"), "{said}");
+    // From standard input, relative to where the command runs.
+    let output = piped(&scratch.0, &["-", "--format", "short"], right.replace("../", "").as_bytes());
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+}

@@ -16,7 +16,7 @@ fn docs_prints_both_formats_of_a_small_specification() {
     let names = ["lamp/README.md", "lamp/index.html", "lamp/lamp.html", "lamp/lamp.md", "lamp/units.md"];
     assert_eq!(files(&scratch.0.join("out")), names);
     assert_snapshot!(fs::read_to_string(scratch.0.join("out/lamp/lamp.md")).unwrap());
-    // In another language, with what has no words in it marked.
+    // In another language, with a sentence about what has no words in it.
     let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "--lang", "de", "--out", "de"]);
     assert_eq!(code(&output), 0);
     let german = fs::read_to_string(scratch.0.join("de/lamp/lamp.md")).unwrap();
@@ -24,7 +24,68 @@ fn docs_prints_both_formats_of_a_small_specification() {
         german.contains("| Index | Name") && german.contains("Zugriff") && german.contains("Vorgabe"),
         "{german}"
     );
-    assert!(german.contains(" *(en)*"), "{german}");
+    assert!(german.contains("nicht übersetzt ist, gibt es nur auf Englisch."), "{german}");
+}
+
+#[test]
+fn several_documents_have_one_start_page() {
+    let scratch = Scratch::new("portal");
+    scratch.file("lamp.od.yaml", LAMP);
+    scratch.file("fan.od.yaml", LAMP.replace("Lamp", "Fan"));
+    let html = ["docs", "lamp.od.yaml", "fan.od.yaml", "--format", "html", "--out"];
+    let read = |path: &str| fs::read_to_string(scratch.0.join(path)).unwrap().replace("&#x2f;", "/");
+    let output = odgen(&scratch.0, &[&html[..], &["one"]].concat());
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    let names = ["fan/index.html", "fan/lamp.html", "index.html", "lamp/index.html", "lamp/lamp.html"];
+    assert_eq!(files(&scratch.0.join("one")), names);
+    let start = read("one/index.html");
+    for link in
+        ["href=\"lamp/index.html\"", "href=\"fan/lamp.html\"", "[\"fan/lamp.html\",\"Fan\",[[\"1000\""]
+    {
+        assert!(start.contains(link), "{link} is missing in {start}");
+    }
+    assert!(read("one/fan/lamp.html").contains("<a href=\"../index.html\">All documents</a>"));
+    // Each language has a folder of its own, and pages lead to one another.
+    let output = odgen(&scratch.0, &[&html[..], &["two", "--lang", "en", "--lang", "de"]].concat());
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    assert!(read("two/index.html").contains("href=\"lamp/de/lamp.html\""));
+    let english = read("two/lamp/en/lamp.html");
+    assert!(
+        english.contains("href=\"../de/lamp.html\" hreflang=\"de\" lang=\"de\">Deutsch</a>"),
+        "{english}"
+    );
+    assert!(english.contains("<a href=\"../../index.html\">All documents</a>"), "{english}");
+    // A single document needs none.
+    let output =
+        odgen(&scratch.0, &["docs", "lamp.od.yaml", "--format", "html", "--lang", "de", "--out", "three"]);
+    assert_eq!(code(&output), 0);
+    assert_eq!(files(&scratch.0.join("three")), ["lamp/index.html", "lamp/lamp.html"]);
+}
+
+#[test]
+fn pages_show_what_changed_since_an_earlier_specification() {
+    let scratch = Scratch::new("since");
+    scratch.file("old.od.yaml", LAMP);
+    scratch.file("lamp.od.yaml", LAMP.replace("default: 80 %", "default: 70 %"));
+    let since = ["docs", "lamp.od.yaml", "--since", "old.od.yaml", "--format", "html", "--out", "out"];
+    let output = odgen(&scratch.0, &since);
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    let page = fs::read_to_string(scratch.0.join("out/lamp/lamp.html")).unwrap();
+    assert_eq!(
+        page.matches("<p class=\"changed\"><a href=\"#changes\">Changed since old.od.yaml</a></p>").count(),
+        1
+    );
+    for shown in ["default: 80 % → 70 %", ">2000h</a>", "Objects that changed have a bar"] {
+        assert!(page.contains(shown), "{shown} is missing in {page}");
+    }
+    // Without a difference, there is nothing to list.
+    let same = ["docs", "lamp.od.yaml", "--since", "lamp.od.yaml", "--format", "html", "--out", "same"];
+    assert_eq!(code(&odgen(&scratch.0, &same)), 0);
+    assert!(!fs::read_to_string(scratch.0.join("same/lamp/lamp.html")).unwrap().contains("id=\"changes\""));
+    // Which of several specifications is compared would be a guess.
+    let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "old.od.yaml", "--since", "old.od.yaml"]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains("`--since` compares one specification"), "{}", stderr(&output));
 }
 
 #[test]
@@ -148,7 +209,7 @@ fn templates_are_exported_joined_and_replaced() {
     assert_eq!(code(&output), 2);
     let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "--dump-context"]);
     assert!(
-        stdout(&output).starts_with("{\n  \"format\": 1,\n  \"language\": \"en\""),
+        stdout(&output).starts_with("{\n  \"format\": 2,\n  \"language\": \"en\""),
         "{}",
         stdout(&output)
     );

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::client::Client;
 
 const EDS: &str = include_str!("../../../../generated/eds/pmc.eds");
+const FULLMO: &str = include_str!("../../../../generated/eds/fullmo.eds");
 const XDD: &str = include_str!("../cli/eds/tank.xdd");
 
 /// Line and column of a text after the first place of another.
@@ -38,6 +39,8 @@ fn an_eds_offers_keys_types_and_access() {
     );
     let types = ask(5, 9);
     assert!(labels(&types).contains(&"0x0006"), "{types}");
+    // A number says nothing: its name is in each line of the list.
+    assert_eq!(types["items"][0]["labelDetails"], json!({"description": "BOOLEAN"}), "{types}");
     assert_eq!(labels(&ask(6, 11)), ["ro", "wo", "rw", "rwr", "rww", "const"]);
     // A section without keys of its own, and a comment.
     assert_eq!(labels(&ask(0, 3)), Vec::<&str>::new());
@@ -122,4 +125,16 @@ fn an_xdd_has_an_outline_and_hover() {
     let at = place(XDD, "<CANopenObject ", "<CANopenObject ");
     let hover = client.request_at("textDocument/hover", "tank.xdd", (at.0, at.1 + 3));
     assert!(hover["contents"]["value"].as_str().is_some_and(|text| text.starts_with('`')), "{hover}");
+}
+
+/// A unit that only a comment of an EDS names has no other name.
+#[test]
+fn the_unit_of_an_eds_is_said_once() {
+    let mut client = Client::new("eds-unit");
+    client.open("fullmo.eds", FULLMO);
+    let line = FULLMO.lines().position(|line| line == "; unit 0.1 %").unwrap() + 1;
+    let position = (u32::try_from(line).unwrap(), 2);
+    let hover = client.request_at("textDocument/hover", "fullmo.eds", position);
+    let text = hover["contents"]["value"].as_str().unwrap();
+    assert!(text.lines().any(|line| line == "- unit: 0.1 %"), "{text}");
 }

@@ -255,6 +255,12 @@ fn completion_offers_what_may_stand_there() {
             assert!(!labels.contains(label), "{to}: `{label}` in {labels:?}");
         }
     }
+    // Types of one's own before data types, and these before what a library has for itself.
+    let (mut items, _) =
+        session.complete("type: integer16, unit: tenth °C, access: ro", "type: ‸, access: ro");
+    items.sort_by_key(|item| item["sortText"].as_str().unwrap().to_owned());
+    let at = |label: &str| items.iter().position(|item| item["label"] == label).unwrap();
+    assert!(at("mode") < at("boolean") && at("visible-string") < at("PDO COB-ID"), "{items:?}");
     for nothing in ["title: Heater 🌀 ‸x", "title: Heater # ‸"] {
         assert!(session.complete("title: Heater 🌀", nothing).0.is_empty(), "{nothing}");
     }

@@ -151,3 +151,32 @@ fn a_rename_reaches_parameter_files_and_plants_or_is_refused() {
     let refused = client.request("textDocument/prepareRename", &params).unwrap_err();
     assert!(refused["message"].as_str().unwrap().contains("rename it there"), "{refused}");
 }
+
+/// Errors hide what a parameter file or a plant refers to: a rename would leave the old name in it.
+#[test]
+fn a_rename_is_refused_while_references_are_unknown() {
+    let mut client = client("rename-unknown");
+    let broken = VALVE.replace("unit: minute", "unit: minut");
+    client.open("valve.od.yaml", &broken);
+    let line = VALVE.lines().position(|line| line.contains("name: set pressure")).unwrap();
+    let rename = |client: &mut Client| {
+        let document = json!({"uri": client.uri("valve.od.yaml")});
+        let place = json!({"line": line, "character": 20});
+        let params = json!({"textDocument": document, "position": place, "newName": "target pressure"});
+        client.request("textDocument/rename", &params)
+    };
+    let refused = rename(&mut client).unwrap_err()["message"].to_string();
+    assert!(refused.contains("node5.yaml first; until then"), "{refused}");
+    // The plant alone.
+    client.directory.write("node5.yaml", "od-parameters: 1\n");
+    let refused = rename(&mut client).unwrap_err()["message"].to_string();
+    assert!(refused.contains("press.yaml first; until then"), "{refused}");
+    // A plant that is not valid YAML.
+    client.replace("valve.od.yaml", 2, VALVE);
+    client.directory.write("press.yaml", &PLANT.replace("{valve: 2}", "{valve: 2"));
+    let refused = rename(&mut client).unwrap_err()["message"].to_string();
+    assert!(refused.contains("press.yaml first; until then"), "{refused}");
+    // Another one is of no interest.
+    client.directory.write("press.yaml", "od-plant: 1\ndevices: {valve: other.od.yaml\n");
+    assert!(rename(&mut client).is_ok());
+}

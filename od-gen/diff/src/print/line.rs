@@ -74,6 +74,8 @@ const fn is_prose(fact: Fact) -> bool {
         Fact::Presence
             | Fact::Warning
             | Fact::About
+            | Fact::Gap
+            | Fact::Search
             | Fact::Reaction
             | Fact::Shown
             | Fact::Reset

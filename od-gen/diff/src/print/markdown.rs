@@ -4,10 +4,8 @@ use std::fmt::Write as _;
 
 use super::super::{Change, Difference};
 use super::changelog::{self, escape};
-use super::line::{Style, place, values};
+use super::row::{Row, row};
 use super::{advice, scope, summary, unknown};
-
-const STYLE: Style = Style { arrow: "→", longest: None };
 
 /// A table of the changes of each device, the version numbers, and an entry for a changelog.
 pub fn markdown(difference: &Difference) -> String {
@@ -41,20 +39,9 @@ pub fn markdown(difference: &Difference) -> String {
 
 fn table(changes: &[Change]) -> String {
     let mut text = String::from("| | what | change | consequences |\n|---|---|---|---|\n");
-    for change in changes {
-        let consequences: Vec<String> = change
-            .consequences
-            .iter()
-            .map(|consequence| format!("{}: {}", consequence.class.phrase(), consequence.because))
-            .collect();
-        let _ = writeln!(
-            text,
-            "| `{}` | {} | {} | {} |",
-            change.kind().sign(),
-            escape(&place(change)),
-            escape(&values(change, STYLE)),
-            escape(&consequences.join("; "))
-        );
+    for Row { sign, place, values, consequences } in changes.iter().map(row) {
+        let [place, values, consequences] = [place, values, consequences].map(|cell| escape(&cell));
+        let _ = writeln!(text, "| `{sign}` | {place} | {values} | {consequences} |");
     }
     text
 }

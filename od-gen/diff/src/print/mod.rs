@@ -6,10 +6,12 @@ mod human;
 mod json;
 mod line;
 mod markdown;
+mod row;
 
 pub use self::human::{human, short};
 pub use self::json::json;
 pub use self::markdown::markdown;
+pub use self::row::{Row, row};
 
 use std::fmt::Write as _;
 

@@ -10,7 +10,10 @@ use od_spec::wording::{Notation, Wording};
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
 
-use super::{Words, date_time, entry_id, index, integer, ratio, words};
+use super::{
+    Described, SearchWords, Words, date_time, described, entry_id, index, integer, ratio, search_words,
+    with_description, words,
+};
 use crate::hexadecimal;
 
 const WORDING: Wording = Wording::english(Notation::Json);
@@ -20,7 +23,8 @@ const WORDING: Wording = Wording::english(Notation::Json);
 pub(super) struct DeviceView<'a> {
     key: &'a str,
     name: &'a str,
-    about: Words<'a>,
+    #[serde(flatten)]
+    about: Described<'a>,
     product_name: &'a str,
     product: u32,
     product_revision: u32,
@@ -50,7 +54,7 @@ impl<'a> DeviceView<'a> {
         Self {
             key: &device.key,
             name: &device.name,
-            about: words(&device.about),
+            about: described(&device.about),
             product_name: &info.product_name,
             product: info.product,
             product_revision: info.product_revision,
@@ -181,7 +185,10 @@ struct ObjectView<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     canopennode: Option<EditorView<'a>>,
     warning: Words<'a>,
-    about: Words<'a>,
+    #[serde(flatten)]
+    about: Described<'a>,
+    #[serde(skip_serializing_if = "SearchWords::is_empty")]
+    search: SearchWords<'a>,
     entries: Entries<'a>,
 }
 
@@ -221,7 +228,8 @@ fn object_view(object: &Object) -> ObjectView<'_> {
         links: object.linked().map(index).collect(),
         canopennode: object.editor.as_deref().filter(|notes| !notes.is_empty()).map(EditorView::new),
         warning: words(&object.warning),
-        about: words(&object.about),
+        about: described(&object.about),
+        search: search_words(&object.search),
         entries: Entries(object),
     }
 }
@@ -283,7 +291,10 @@ struct EntryView<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     standard: Vec<&'static str>,
     warning: Words<'a>,
-    about: Words<'a>,
+    #[serde(flatten)]
+    about: Described<'a>,
+    #[serde(skip_serializing_if = "SearchWords::is_empty")]
+    search: SearchWords<'a>,
 }
 
 /// What an EDS says of an entry.
@@ -350,7 +361,8 @@ fn entry_view<'o>(object: &'o Object, entry: &'o Entry) -> EntryView<'o> {
         },
         standard: entry.facts.said_by(Author::Library).map(|fact| WORDING.fact(fact)).collect(),
         warning: words(&entry.warning),
-        about: words(&entry.about),
+        about: described(&entry.about),
+        search: search_words(&entry.search),
     }
 }
 
@@ -391,7 +403,7 @@ fn pdo_view(pdo: &Pdo) -> Json {
             json!({"raw": fixed.integer().map(integer)})
         }
     });
-    json!({
+    let json = json!({
         "direction": pdo.direction.word(),
         "number": pdo.number,
         "cob-id": cob_id,
@@ -403,6 +415,6 @@ fn pdo_view(pdo: &Pdo) -> Json {
         "mapping": if pdo.variable_mapping { "variable" } else { "fixed" },
         "capacity": pdo.capacity,
         "map": map,
-        "about": words(&pdo.about),
-    })
+    });
+    with_description(json, &pdo.about)
 }

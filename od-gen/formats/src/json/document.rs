@@ -16,6 +16,10 @@ use crate::hexadecimal;
 #[serde(rename_all = "kebab-case")]
 pub(super) struct DocumentView<'a> {
     source: Option<&'a str>,
+    #[serde(skip_serializing_if = "Words::is_empty")]
+    subtitle: Words<'a>,
+    #[serde(skip_serializing_if = "Words::is_empty")]
+    address: Words<'a>,
     revision: Option<IssueView<'a>>,
     history: Vec<IssueView<'a>>,
     glossary: BTreeMap<&'a str, Words<'a>>,
@@ -42,7 +46,12 @@ struct SectionView<'a> {
 #[serde(untagged)]
 enum ContentView<'a> {
     Table(usize),
-    Prose { kind: &'static str, items: Vec<Words<'a>> },
+    Prose {
+        kind: &'static str,
+        items: Vec<Words<'a>>,
+        #[serde(rename = "for", skip_serializing_if = "Vec::is_empty")]
+        warns_for: Vec<String>,
+    },
 }
 
 #[derive(Serialize)]
@@ -51,6 +60,10 @@ struct TableView<'a> {
     title: Words<'a>,
     figure: Option<FigureView<'a>>,
     content: Json,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    columns: &'a [String],
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    order: Vec<Json>,
 }
 
 #[derive(Serialize)]
@@ -63,6 +76,8 @@ pub(super) fn document(system: &System) -> DocumentView<'_> {
     let document = &system.document;
     DocumentView {
         source: document.source.as_deref(),
+        subtitle: words(&document.subtitle),
+        address: words(&document.address),
         revision: document.revision.as_ref().map(issue),
         history: document.history.iter().map(issue).collect(),
         glossary: document.glossary.iter().map(|(name, text)| (name.as_str(), words(text))).collect(),
@@ -87,7 +102,12 @@ fn content(content: &Content) -> ContentView<'_> {
     match content {
         Content::Table(table) => ContentView::Table(*table),
         Content::Prose(prose) => {
-            ContentView::Prose { kind: prose.kind.word(), items: prose.items.iter().map(words).collect() }
+            let warns_for = prose.warns_for.iter().map(|one| index(*one)).collect();
+            ContentView::Prose {
+                kind: prose.kind.word(),
+                items: prose.items.iter().map(words).collect(),
+                warns_for,
+            }
         }
     }
 }
@@ -138,7 +158,9 @@ fn table<'a>(system: &System, table: &'a Table) -> TableView<'a> {
     };
     let figure = table.figure.as_ref();
     let figure = figure.map(|figure| FigureView { number: figure.number, title: words(&figure.title) });
-    TableView { number: table.number, title: words(&table.title), figure, content }
+    let order = table.order.iter().map(|number| integer(*number)).collect();
+    let columns = table.columns.as_slice();
+    TableView { number: table.number, title: words(&table.title), figure, content, columns, order }
 }
 
 fn block(block: &Block) -> Json {

@@ -6,9 +6,11 @@ mod node;
 mod rules;
 mod types;
 
+use std::collections::BTreeMap;
+
 use od_spec::Commissioning;
 use od_spec::eds::MARK;
-use od_spec::model::{self, Date, DateTime, Devices, Dictionary, EntryId, System, Text};
+use od_spec::model::{self, Date, DateTime, Devices, Dictionary, EntryId, Phrases, System, Text};
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
 
@@ -82,6 +84,12 @@ struct SystemView<'a> {
 /// A text as a map from language code to text.
 struct Words<'a>(&'a Text);
 
+impl Words<'_> {
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
 impl Serialize for Words<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.0.iter())
@@ -90,6 +98,35 @@ impl Serialize for Words<'_> {
 
 const fn words(text: &Text) -> Words<'_> {
     Words(text)
+}
+
+/// A description, and where the printed manual leaves something open, what that is.
+#[derive(Serialize)]
+struct Described<'a> {
+    about: Words<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gap: Option<Words<'a>>,
+}
+
+fn described(text: &Text) -> Described<'_> {
+    Described { about: words(text), gap: text.gap().map(words) }
+}
+
+/// A map with the description of what it is about.
+fn with_description(mut map: Json, text: &Text) -> Json {
+    if let (Some(map), Ok(Json::Object(described))) =
+        (map.as_object_mut(), serde_json::to_value(described(text)))
+    {
+        map.extend(described);
+    }
+    map
+}
+
+/// Phrases by language.
+type SearchWords<'a> = BTreeMap<&'a str, &'a [String]>;
+
+fn search_words(phrases: &Phrases) -> SearchWords<'_> {
+    phrases.iter().collect()
 }
 
 fn index(index: model::Index) -> String {

@@ -6,7 +6,9 @@ use od_spec::model::{
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use super::{Words, entry_id, index, words};
+use super::{
+    Described, SearchWords, Words, described, entry_id, index, integer, search_words, with_description, words,
+};
 use crate::hexadecimal;
 
 #[derive(Serialize)]
@@ -23,7 +25,10 @@ pub(super) struct ErrorView<'a> {
     register: Vec<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reset: Option<Words<'a>>,
-    about: Words<'a>,
+    #[serde(flatten)]
+    about: Described<'a>,
+    #[serde(skip_serializing_if = "SearchWords::is_empty")]
+    search: SearchWords<'a>,
 }
 
 pub(super) fn error(error: &ErrorCode) -> ErrorView<'_> {
@@ -37,7 +42,8 @@ pub(super) fn error(error: &ErrorCode) -> ErrorView<'_> {
         treated_by: (error.treated_by != error.devices).then(|| error.treated_by.keys()),
         register: error.kinds.iter().map(|kind| kind.word()).collect(),
         reset: (!error.reset.is_empty()).then(|| words(&error.reset)),
-        about: words(&error.about),
+        about: described(&error.about),
+        search: search_words(&error.search),
     }
 }
 
@@ -73,7 +79,10 @@ pub(super) fn machine(machine: &StateMachine) -> MachineView<'_> {
         states: machine
             .states
             .iter()
-            .map(|state| json!({"name": state.name, "pattern": pattern(&state.pattern.0), "about": words(&state.about)}))
+            .map(|state| {
+                let map = json!({"name": state.name, "pattern": pattern(&state.pattern.0)});
+                with_description(map, &state.about)
+            })
             .collect(),
         transitions: machine
             .transitions
@@ -93,13 +102,13 @@ pub(super) fn machine(machine: &StateMachine) -> MachineView<'_> {
             .commands
             .iter()
             .map(|command| {
-                json!({
+                let map = json!({
                     "name": command.name,
                     "pattern": pattern(&command.pattern.0),
                     "send": command.send,
                     "transitions": command.transitions,
-                    "about": words(&command.about),
-                })
+                });
+                with_description(map, &command.about)
             })
             .collect(),
     }
@@ -113,7 +122,8 @@ pub(super) struct ConstraintView<'a> {
     devices: &'a [String],
     require: &'a str,
     when: Option<&'a str>,
-    about: Words<'a>,
+    #[serde(flatten)]
+    about: Described<'a>,
 }
 
 pub(super) fn constraint(constraint: &Constraint) -> ConstraintView<'_> {
@@ -123,7 +133,7 @@ pub(super) fn constraint(constraint: &Constraint) -> ConstraintView<'_> {
         devices: constraint.devices.keys(),
         require: &constraint.require.text,
         when: constraint.when.as_ref().map(|when| when.text.as_str()),
-        about: words(&constraint.about),
+        about: described(&constraint.about),
     }
 }
 
@@ -137,6 +147,12 @@ pub(super) struct ErratumView<'a> {
     reads: Words<'a>,
     because: Words<'a>,
     tables: Vec<Json>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    facts: Vec<&'static str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    of: Vec<Json>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    basis: Option<&'static str>,
 }
 
 pub(super) fn erratum<'a>(erratum: &'a Erratum, document: &Document) -> ErratumView<'a> {
@@ -160,5 +176,8 @@ pub(super) fn erratum<'a>(erratum: &'a Erratum, document: &Document) -> ErratumV
         reads: words(&erratum.reads),
         because: words(&erratum.because),
         tables: erratum.tables.iter().filter_map(table).collect(),
+        facts: erratum.unprinted.iter().flat_map(|one| &one.facts).map(|fact| fact.word()).collect(),
+        of: erratum.unprinted.iter().flat_map(|one| &one.of).map(|value| integer(*value)).collect(),
+        basis: erratum.unprinted.as_ref().map(|one| one.basis.word()),
     }
 }

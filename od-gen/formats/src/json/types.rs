@@ -4,7 +4,7 @@ use od_spec::model::{self, BitField, BitUsage, EnumValue, NamedType, Ratio, Type
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use super::{Words, integer, ratio, words};
+use super::{Described, SearchWords, described, integer, ratio, search_words, with_description};
 use crate::hexadecimal;
 
 #[derive(Serialize)]
@@ -19,7 +19,8 @@ pub(super) struct UnitView<'a> {
     base: Option<Json>,
     #[serde(skip_serializing_if = "Option::is_none")]
     formula: Option<&'a str>,
-    about: Words<'a>,
+    #[serde(flatten)]
+    about: Described<'a>,
 }
 
 pub(super) fn unit_view(unit: &Unit) -> UnitView<'_> {
@@ -30,7 +31,7 @@ pub(super) fn unit_view(unit: &Unit) -> UnitView<'_> {
         offset: (unit.offset != Ratio::ZERO).then(|| ratio(unit.offset)),
         base: unit.base.as_ref().map(|base| json!({"symbol": base.symbol, "factor": ratio(base.factor)})),
         formula: unit.formula.as_ref().map(|formula| formula.text.as_str()),
-        about: words(&unit.about),
+        about: described(&unit.about),
     }
 }
 
@@ -38,7 +39,8 @@ pub(super) fn unit_view(unit: &Unit) -> UnitView<'_> {
 pub(super) struct TypeView<'a> {
     name: &'a str,
     base: &'static str,
-    about: Words<'a>,
+    #[serde(flatten)]
+    about: Described<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<Vec<EnumView<'a>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -50,7 +52,10 @@ struct EnumView<'a> {
     value: Json,
     name: &'a str,
     supported: bool,
-    about: Words<'a>,
+    #[serde(flatten)]
+    about: Described<'a>,
+    #[serde(skip_serializing_if = "SearchWords::is_empty")]
+    search: SearchWords<'a>,
 }
 
 #[derive(Serialize)]
@@ -59,7 +64,10 @@ struct BitView<'a> {
     last: u8,
     usage: &'static str,
     name: &'a str,
-    about: Words<'a>,
+    #[serde(flatten)]
+    about: Described<'a>,
+    #[serde(skip_serializing_if = "SearchWords::is_empty")]
+    search: SearchWords<'a>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -82,7 +90,7 @@ pub(super) fn type_view(named: &NamedType) -> TypeView<'_> {
         TypeKind::Enum(values) => (Some(values.iter().map(enum_view).collect()), None),
         TypeKind::Bits(fields) => (None, Some(fields.iter().map(bit_view).collect())),
     };
-    TypeView { name: &named.name, base: named.base.name(), about: words(&named.about), values, bits }
+    TypeView { name: &named.name, base: named.base.name(), about: described(&named.about), values, bits }
 }
 
 fn enum_view(value: &EnumValue) -> EnumView<'_> {
@@ -90,7 +98,8 @@ fn enum_view(value: &EnumValue) -> EnumView<'_> {
         value: integer(value.value),
         name: &value.name,
         supported: value.supported,
-        about: words(&value.about),
+        about: described(&value.about),
+        search: search_words(&value.search),
     }
 }
 
@@ -104,7 +113,8 @@ fn bit_view(field: &BitField) -> BitView<'_> {
             BitUsage::Unused => "unused",
         },
         name: &field.name,
-        about: words(&field.about),
+        about: described(&field.about),
+        search: search_words(&field.search),
         errors: field.error_codes().map(|code| hexadecimal::prefixed(code, 4)).collect(),
         mnemonic: field.mnemonic.as_deref(),
         clamp: field.clamp.as_deref(),
@@ -115,7 +125,7 @@ fn bit_view(field: &BitField) -> BitView<'_> {
         modes: field
             .modes
             .iter()
-            .map(|one| json!({"mode": one.mode.value, "name": one.name, "about": words(&one.about)}))
+            .map(|one| with_description(json!({"mode": one.mode.value, "name": one.name}), &one.about))
             .collect(),
     }
 }

@@ -65,6 +65,12 @@ fn whole(object: &Object, below: &Object, context: &Context<'_>) -> Vec<Item> {
         links(object, below),
         text(Fact::Warning, &object.warning, &below.warning),
         text(Fact::About, &object.about, &below.about),
+        super::texts::open(&object.about, context.language())
+            .filter(|_| object.about.gap() != below.about.gap())
+            .map(|gap| item(Fact::Gap, gap)),
+        super::texts::phrases(&object.search)
+            .filter(|_| object.search != below.search)
+            .map(|phrases| item(Fact::Search, phrases)),
     ];
     items.into_iter().flatten().collect()
 }
@@ -88,7 +94,7 @@ fn sub0(context: &Context<'_>, object: &Object, below: &Object) -> Option<Vec<It
             Fact::Storage => Node::plain("no"),
             Fact::Eds => no_flags(),
             Fact::Default => value(object.index, count, count.default.as_ref()?),
-            Fact::Warning | Fact::About => continue,
+            Fact::Warning | Fact::About | Fact::Search => continue,
             _ => return None,
         };
         keys.push((*fact, node));
@@ -244,6 +250,7 @@ fn differences(context: &Context<'_>, index: Index, own: &Entry, below: &Entry) 
                 Fact::WriteCondition => condition(own) != condition(below),
                 Fact::Warning => own.warning != below.warning,
                 Fact::About => own.about != below.about,
+                Fact::Search => own.search != below.search,
                 other => fold::get(&theirs, *other) != fold::get(&keys, *other),
             }
     };

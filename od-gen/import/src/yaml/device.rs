@@ -7,7 +7,7 @@ use super::eds::EdsDefaults;
 use super::further;
 use super::node::{Item, Node};
 use super::remarks::Broken;
-use super::texts::{one_or_more, words};
+use super::texts::{one_or_more, open, words};
 
 /// The keys before `units:`.
 pub(super) fn header(context: &Context<'_>, uses: &[String]) -> Vec<Item> {
@@ -47,6 +47,7 @@ pub(super) fn device(context: &Context<'_>, features: &[String]) -> Item {
     let flag = |flag: bool, usual: bool| (flag != usual).then(|| Node::yes_no(flag));
     let list = |list: Vec<Node>| (!list.is_empty()).then_some(Node::List(list));
     add("about", words(&device.about, context.language()));
+    add("gap", open(&device.about, context.language()));
     let named = info.product_name != device.name;
     add("product-name", named.then(|| Node::text(info.product_name.clone())));
     add("product", number(info.product));

@@ -8,7 +8,7 @@ use od_spec::model::{
 use super::context::Context;
 use super::eds;
 use super::node::{Item, Node};
-use super::texts::{named, one_or_more, words};
+use super::texts::{named, one_or_more, open, phrases, words};
 use super::types::bits;
 use super::value::value;
 
@@ -43,6 +43,8 @@ pub(super) fn keys(context: &Context<'_>, index: Index, entry: &Entry) -> Keys {
     add(Fact::Eds, (!eds.is_empty()).then_some(Node::Map(eds)));
     add(Fact::Warning, words(&entry.warning, context.language()));
     add(Fact::About, words(&entry.about, context.language()));
+    add(Fact::Gap, open(&entry.about, context.language()));
+    add(Fact::Search, phrases(&entry.search));
     keys
 }
 

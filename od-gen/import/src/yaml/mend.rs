@@ -2,8 +2,8 @@
 
 use od_spec::diag::Diagnostic;
 use od_spec::model::{
-    DataType, Dictionary, Entry, EntryId, Fact, Index, PdoMapping, Role, Storage, SubIndex, System, Text,
-    Value,
+    DataType, Dictionary, Entry, EntryId, Fact, Index, PdoMapping, Phrases, Role, Storage, SubIndex, System,
+    Text, Value,
 };
 use od_spec::wording::format_value;
 
@@ -125,6 +125,10 @@ impl Draft {
                 let about = std::mem::take(&mut entry.about);
                 (!about.is_empty()).then(|| "a description".to_owned())?
             }
+            Fact::Search => {
+                let search = std::mem::take(&mut entry.search);
+                (!search.is_empty()).then(|| "words to look for".to_owned())?
+            }
             Fact::Access => {
                 std::mem::take(&mut entry.locked).then(|| format!("{} locked", entry.access.word()))?
             }
@@ -173,6 +177,10 @@ impl Draft {
             Fact::About => {
                 object.about = Text::default();
                 "a description".to_owned()
+            }
+            Fact::Search => {
+                object.search = Phrases::default();
+                "words to look for".to_owned()
             }
             _ => return None,
         };

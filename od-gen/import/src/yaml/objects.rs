@@ -54,7 +54,9 @@ fn around(context: &Context<'_>, object: &Object) -> (Vec<Item>, Vec<Item>) {
     let after = [(Fact::Warning, &object.warning), (Fact::About, &object.about)];
     let after = after
         .into_iter()
-        .filter_map(|(fact, text)| Some(item(fact, super::texts::words(text, context.language())?)));
+        .filter_map(|(fact, text)| Some(item(fact, super::texts::words(text, context.language())?)))
+        .chain(super::texts::open(&object.about, context.language()).map(|gap| item(Fact::Gap, gap)))
+        .chain(super::texts::phrases(&object.search).map(|phrases| item(Fact::Search, phrases)));
     (before.into_iter().flatten().collect(), after.collect())
 }
 
@@ -65,7 +67,9 @@ fn links(object: &Object) -> Option<Item> {
 
 /// The keys of a VAR with its links, which are before the description.
 pub(super) fn with_links(mut items: Vec<Item>, links: Option<Item>) -> Vec<Item> {
-    let is_text = |item: &Item| [Fact::Warning.word(), Fact::About.word()].contains(&item.key.as_str());
+    let is_text = |item: &Item| {
+        [Fact::Warning, Fact::About, Fact::Gap, Fact::Search].map(Fact::word).contains(&item.key.as_str())
+    };
     let texts = items.iter().position(is_text).unwrap_or(items.len());
     items.splice(texts..texts, links);
     items

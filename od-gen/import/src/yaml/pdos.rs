@@ -9,7 +9,7 @@ use super::node::{Item, Node};
 use super::pdo_obstacles::obstacle;
 use super::pdo_parameters::{self, Parameters};
 use super::scalar::spelled;
-use super::texts::words;
+use super::texts::described;
 
 /// The PDOs that are under `pdos:`; the parameter objects of any other are written in full.
 pub(super) fn short<'a>(context: &Context<'a>) -> Vec<&'a Pdo> {
@@ -86,7 +86,7 @@ fn item(context: &Context<'_>, names: &Names, pdo: &Pdo, parameters: Vec<Item>) 
     if !parameters.is_empty() {
         items.push(Item::new("parameters", Node::Map(parameters)));
     }
-    items.extend(words(&pdo.about, context.language()).map(|about| Item::new("about", about)));
+    items.extend(described(&pdo.about, context.language()));
     let above = [pdo.communication_index(), pdo.mapping_index()].map(Index);
     let above = above.into_iter().flat_map(|index| comments(context, index)).collect();
     Item { above, ..Item::new(pdo.number.to_string(), Node::Map(items)) }

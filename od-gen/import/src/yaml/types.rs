@@ -7,7 +7,7 @@ use od_spec::model::{BitField, BitUsage, EnumValue, NamedType, Ratio, TypeKind, 
 use super::context::Context;
 use super::node::{Item, Node};
 use super::scalar::spelled;
-use super::texts::{named, one_or_more, words};
+use super::texts::{described, named, one_or_more, search};
 
 /// `units:`, of those that the text names.
 pub(super) fn units(context: &Context<'_>, named: &BTreeSet<&str>) -> Vec<Item> {
@@ -25,7 +25,7 @@ pub(super) fn units(context: &Context<'_>, named: &BTreeSet<&str>) -> Vec<Item> 
         items.extend(
             unit.formula.as_ref().map(|formula| Item::new("formula", Node::text(formula.text.clone()))),
         );
-        items.extend(words(&unit.about, context.language()).map(|about| Item::new("about", about)));
+        items.extend(described(&unit.about, context.language()));
         Item::new(spelled(&context.unit_name(unit)), Node::Map(items))
     };
     let units = context.units();
@@ -44,7 +44,7 @@ fn fraction(ratio: Ratio) -> String {
 pub(super) fn types(context: &Context<'_>, in_text: &BTreeSet<&str>) -> Vec<Item> {
     let item = |named: &NamedType| {
         let mut items = vec![Item::new("base", Node::plain(named.base.name()))];
-        items.extend(words(&named.about, context.language()).map(|about| Item::new("about", about)));
+        items.extend(described(&named.about, context.language()));
         match &named.kind {
             TypeKind::Enum(values) => {
                 items.push(Item::new("values", Node::Map(enum_values(context, values))));
@@ -64,7 +64,8 @@ pub(super) fn types(context: &Context<'_>, in_text: &BTreeSet<&str>) -> Vec<Item
 fn enum_values(context: &Context<'_>, values: &[EnumValue]) -> Vec<Item> {
     let item = |value: &EnumValue| {
         let supported = (!value.supported).then(|| Item::new("supported", Node::yes_no(false)));
-        let node = named(&value.name, supported.into_iter().collect(), &value.about, context.language());
+        let more = supported.into_iter().chain(search(&value.search)).collect();
+        let node = named(&value.name, more, &value.about, context.language());
         Item::new(value.value.to_string(), node)
     };
     values.iter().map(item).collect()
@@ -94,9 +95,13 @@ fn bit_fields(context: &Context<'_>, fields: &[BitField]) -> Vec<Item> {
 
 /// Whether nothing is said about bits but what they are for.
 fn is_bare(field: &BitField) -> bool {
-    let BitField { name, about, errors, mnemonic, clamp, active, edge, priority, values, modes, .. } = field;
+    let BitField {
+        name, about, search, errors, mnemonic, clamp, active, edge, priority, values, modes, ..
+    } = field;
     name.is_empty()
         && about.is_empty()
+        && about.gap().is_none()
+        && search.is_empty()
         && errors.is_empty()
         && mnemonic.is_none()
         && clamp.is_none()
@@ -124,6 +129,7 @@ fn bit_field(context: &Context<'_>, field: &BitField) -> Item {
     }
     more.extend(field.mnemonic.clone().map(|mnemonic| Item::new("mnemonic", Node::Text(mnemonic))));
     more.extend(field.clamp.clone().map(|clamp| Item::new("clamp", Node::Text(clamp))));
+    more.extend(search(&field.search));
     if field.active != 1 {
         more.push(Item::new("active", Node::plain(field.active)));
     }
@@ -147,6 +153,6 @@ fn bit_field(context: &Context<'_>, field: &BitField) -> Item {
         }
         more.push(Item::new("name", Node::text(field.name.clone())));
     }
-    more.extend(words(&field.about, context.language()).map(|about| Item::new("about", about)));
+    more.extend(described(&field.about, context.language()));
     Item::new(bits(field), Node::Map(more))
 }

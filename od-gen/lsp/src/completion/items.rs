@@ -1,8 +1,8 @@
 //! What is written already, and what is put in its place.
 
 use lsp_types::{
-    CompletionItem, CompletionItemKind, CompletionTextEdit, Documentation, InsertTextFormat, MarkupContent,
-    MarkupKind, Position, Range, TextEdit,
+    CompletionItem, CompletionItemKind, CompletionItemLabelDetails, CompletionTextEdit, Documentation,
+    InsertTextFormat, MarkupContent, MarkupKind, Position, Range, TextEdit,
 };
 use od_import::yaml::spelled;
 use od_spec::model::Access;
@@ -167,6 +167,11 @@ impl Offer {
             command: client.next.clone().filter(|_| self.goes_on),
             label: self.label,
             kind: Some(self.kind),
+            // Editors show the one in each line of the list, or the other about the chosen line.
+            label_details: self.detail.clone().map(|detail| CompletionItemLabelDetails {
+                description: Some(detail),
+                ..CompletionItemLabelDetails::default()
+            }),
             detail: self.detail,
             documentation,
             filter_text,

@@ -14,6 +14,9 @@ use super::{MARK, Wanted, keys, long_form};
 use crate::cursor::entry_around;
 use crate::library;
 
+/// The rank of what the specification defines itself.
+const OWN: u8 = 4;
+
 /// Keys of a map that are data: devices, objects of libraries, languages.
 pub(super) fn of_keys(map: &Node, kind: KeyKind, written: &Written, wanted: &Wanted<'_>) -> Vec<Offer> {
     let is_there = |key: &str| map.entries().iter().any(|(name, _)| name.value == key);
@@ -105,8 +108,12 @@ pub(super) fn of_value(shape: Shape, written: &Written, wanted: &Wanted<'_>) -> 
             offers
         }
         Shape::Type => {
+            // Own types, data types, then what libraries define for themselves.
             let mut offers = data_types();
-            offers.extend(defined(wanted, Kind::Type).into_iter().map(|offer| offer.rank(3)));
+            offers.extend(defined(wanted, Kind::Type).into_iter().map(|offer| match offer.rank {
+                OWN => offer,
+                _ => offer.rank(6),
+            }));
             offers
         }
         Shape::NameOf(of) => of_name(of, wanted),
@@ -269,7 +276,7 @@ fn offer(wanted: &Wanted<'_>, one: &Definition) -> Offer {
     let root = wanted.snapshot.now.root;
     let is_own = root.is_some_and(|root| one.span.file.is_one_with(root));
     let offer = Offer::name(&one.name, kind).detail(detail.unwrap_or_default());
-    let offer = offer.rank(if is_own { 4 } else { 5 });
+    let offer = offer.rank(if is_own { OWN } else { 5 });
     match system.and_then(|system| system.units.get(&one.name)).filter(|_| one.kind == Kind::Unit) {
         Some(unit) => offer.also(unit.symbol.clone()),
         None => offer,

@@ -67,8 +67,11 @@ impl Described<'_> {
         let line = |fact: Fact, text: String| format!("{}: {text}", words.fact(fact));
         let mut lines = vec![line(Fact::Type, self.data_type())];
         if let Some(unit) = &entry.unit {
-            let step = escaped(&words.counted_step(unit));
-            lines.push(line(Fact::Unit, format!("{}, {step}", code(&unit.name))));
+            // A unit that no specification names is called by its step.
+            let step = words.counted_step(unit);
+            let name = Some(code(&unit.name)).filter(|_| unit.name != step);
+            let parts: Vec<String> = name.into_iter().chain([escaped(&step)]).collect();
+            lines.push(line(Fact::Unit, parts.join(", ")));
         }
         lines.push(line(Fact::Access, words.access(entry)));
         lines.extend(self.values(entry));

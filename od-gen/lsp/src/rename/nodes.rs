@@ -58,8 +58,13 @@ fn in_file(
     spec: &Place,
     renamed: &BTreeMap<DefinitionId, String>,
 ) -> Result<Vec<(Span, String)>, String> {
-    let Some(at) = satellite.described.iter().position(|one| satellite.place(one.root) == Some(spec)) else {
-        return Ok(Vec::new());
+    let at = satellite.described.iter().position(|one| satellite.place(one.root) == Some(spec));
+    // Without a device there is nothing that its names could mean.
+    let Some(at) = at.filter(|at| !satellite.described[*at].devices.is_empty()) else {
+        let place = satellite.own_place().map(Place::name).unwrap_or_default();
+        return Err(format!(
+            "correct the errors here or in {place} first; until then, its references are not known"
+        ));
     };
     let names = satellite.names_of(at);
     let key = |analysis: &Analysis, one: &Definition| {

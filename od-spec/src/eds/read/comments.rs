@@ -149,6 +149,8 @@ impl Meanings {
                     name: Some(made(name, place)),
                     supported,
                     about: None,
+                    gap: None,
+                    search: None,
                 }
             });
             let named = type_decl(data_type, place, Some(values.collect()), None);
@@ -377,6 +379,8 @@ fn bits(mut list: Vec<(BitRange, String)>, data_type: DataType, place: Span) -> 
         usage: BitUsage::Used,
         name: Some(made(name, place)),
         about: None,
+        gap: None,
+        search: None,
         errors: Vec::new(),
         mnemonic: None,
         clamp: None,
@@ -398,7 +402,7 @@ fn type_decl(
     // What the comments leave out may have a meaning all the same.
     let rest = bits.as_ref().map(|_| Spanned::new(BitUsage::Unused, place));
     let base = Some(made(data_type.name(), place));
-    TypeDecl { unsure: false, name: made("", place), base, about: None, values, bits, rest }
+    TypeDecl { unsure: false, name: made("", place), base, about: None, gap: None, values, bits, rest }
 }
 
 /// What a type says, without its name: equal types are one.

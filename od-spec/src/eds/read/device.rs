@@ -28,6 +28,7 @@ pub(super) fn device(view: &View<'_>, file_name: &str, objects: &[ObjectDecl]) -
     DeviceDecl {
         name: Some(name),
         about: None,
+        gap: None,
         product: info.number("ProductNumber", 0xFFFF_FFFF),
         product_revision: info.number("RevisionNumber", 0xFFFF_FFFF),
         order_code: info.text("OrderCode"),

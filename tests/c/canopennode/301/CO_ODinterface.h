@@ -9,6 +9,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "301/CO_config.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif

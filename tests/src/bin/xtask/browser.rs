@@ -9,6 +9,7 @@ use od_tests::{Failure, compile_clean, root};
 use crate::hostile;
 use crate::parts::Amount;
 use crate::runner::Runner;
+use crate::workbench;
 
 /// What is done with documents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,13 +66,20 @@ pub(crate) fn read_documents(runner: &mut Runner, amount: Amount) -> Result<(), 
         let mut options = docs::options(&system, &[], Some(language));
         let html = [docs::Templates::new(Some(docs::Format::Html), &[])?];
         let mut set = docs::artifacts(&system, "", stem, &options, &html)?;
+        set.push(Artifact {
+            path: format!("{stem}/workbench.json"),
+            bytes: workbench::expected(&system, language, &options)?,
+            purpose: String::new(),
+        });
         if reading == Reading::Asked {
             write_all(&root().join(DOCS), &set)?;
             arguments.push(format!("{DOCS}/{stem}"));
             continue;
         }
-        let beside = [("dump", json::dump(&system, &[])), ("context", docs::dump_context(&system, &options))];
-        set.extend(beside.map(|(name, bytes)| Artifact {
+        let on_screen = docs::Options { gaps: docs::Gaps::InPlace, ..options.clone() };
+        let siblings =
+            [("dump", json::dump(&system, &[])), ("context", docs::dump_context(&system, &on_screen))];
+        set.extend(siblings.map(|(name, bytes)| Artifact {
             path: format!("{stem}/{name}.json"),
             bytes,
             purpose: String::new(),
@@ -85,9 +93,32 @@ pub(crate) fn read_documents(runner: &mut Runner, amount: Amount) -> Result<(), 
         write_all(&root().join(DOCS), &set)?;
         arguments.extend(["", "-asciidoc", "-print"].map(|kind| format!("{DOCS}/{stem}{kind}")));
     }
+    write_all(&root().join(DOCS), &with_start_page("start-page")?)?;
+    arguments.push(format!("{DOCS}/start-page"));
     arguments.extend(hostile::documents(DOCS, amount)?);
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     runner.python("tests/browser/run.py", &arguments)
+}
+
+/// One specification twice, in two languages, below a start page.
+fn with_start_page(folder: &str) -> Result<Vec<Artifact>, Failure> {
+    let system = compile_clean("tests/docs/two.od.yaml")?;
+    let other = |code: &str| docs::InLanguage {
+        language: code.to_owned(),
+        name: docs::language_name(code),
+        folder: format!("../{code}"),
+    };
+    let edition = |(name, language, others): (&str, &str, &str)| {
+        let start_page = "../../index.html".to_owned();
+        let siblings = docs::Siblings { start_page, languages: vec![other(others)] };
+        let options = docs::Options { siblings, ..docs::options(&system, &[], Some(language)) };
+        docs::Edition { system: &system, folder: format!("{name}/{language}"), options }
+    };
+    let editions =
+        [("two", "en", "de"), ("two", "de", "en"), ("twice", "en", "de"), ("twice", "de", "en")].map(edition);
+    let templates = [docs::Templates::new(Some(docs::Format::Html), &[])?];
+    let set = docs::with_start_page(&editions, &templates)?;
+    Ok(set.into_iter().map(|file| Artifact { path: format!("{folder}/{}", file.path), ..file }).collect())
 }
 
 /// The templates of the AsciiDoc example.

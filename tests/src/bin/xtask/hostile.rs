@@ -25,13 +25,19 @@ const PAYLOADS: [(&str, &str); 3] = [
 /// Fewer places than this do not show much.
 const LEAST: usize = 50;
 /// Texts that no page of an English document shows, each with the reason.
-const NOT_SHOWN: [(&str, &str); 6] = [
+const NOT_SHOWN: [(&str, &str); 12] = [
     ("Geschichte", "of another language"),
     ("Allowed text", "of a check, which states it"),
     ("Reason text", "of a check, which states it"),
     ("Receive inhibit", "of an entry that no PDO of the device has"),
     ("Receive timer", "of an entry that no PDO of the device has"),
     ("Receive start", "of an entry that no PDO of the device has"),
+    ("Subtitle text", "of the cover of the printed manual"),
+    ("Address text", "of the cover of the printed manual"),
+    ("Key text", "of the index of the printed tables"),
+    ("Value words", "by which the search finds something"),
+    ("Bit words", "by which the search finds something"),
+    ("Error words", "by which the search finds something"),
 ];
 
 /// The directories with the documents, below a directory of the workspace.

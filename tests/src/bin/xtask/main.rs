@@ -20,6 +20,7 @@ mod rust_tests;
 mod summary;
 mod tools;
 mod virtual_nodes;
+mod workbench;
 
 use std::collections::BTreeSet;
 use std::process::ExitCode;
@@ -134,28 +135,35 @@ fn find_tools(parts: &[&Part]) -> BTreeSet<Tool> {
     found
 }
 
-/// Runs the parts: those of cargo one after the other, and at the same time, and then instead of them, the others.
+/// Runs the parts: those of cargo one after the other, and at the same time, and then instead of them, the others; what waits most of the time has a
+/// place of its own.
 fn run_all(parts: &[&'static Part], found: &BTreeSet<Tool>) -> Vec<Row> {
     let of = |turn: Turn| parts.iter().copied().filter(move |part| part.turn == turn);
     prepare(parts);
-    let waiting = Mutex::new(of(Turn::Beside));
-    let run_waiting = |done: &mut dyn FnMut((Row, Output))| {
+    let beside = Mutex::new(of(Turn::Beside));
+    let run_beside = |done: &mut dyn FnMut((Row, Output))| {
         // The lock is given back before the part runs.
-        let next = || waiting.lock().ok()?.next();
+        let next = || beside.lock().ok()?.next();
         while let Some(part) = next() {
             done(run(part, found, Output::Kept(Vec::new())));
         }
     };
-    let (done, to_tell) = std::sync::mpsc::channel();
+    let (done, ended) = std::sync::mpsc::channel();
     std::thread::scope(|scope| {
+        // There is no listener only when the other thread has panicked.
+        let waiting = done.clone();
+        scope.spawn(move || {
+            for part in of(Turn::Waiting) {
+                drop(waiting.send(run(part, found, Output::Kept(Vec::new()))));
+            }
+        });
         scope.spawn(|| {
             let done = done;
-            // There is no listener only when the other thread has panicked.
-            run_waiting(&mut |row| drop(done.send(row)));
+            run_beside(&mut |row| drop(done.send(row)));
         });
         let mut rows: Vec<Row> = of(Turn::First).map(|part| print(run(part, found, Output::Shown))).collect();
-        run_waiting(&mut |row| rows.push(print(row)));
-        rows.extend(to_tell.iter().map(print));
+        run_beside(&mut |row| rows.push(print(row)));
+        rows.extend(ended.iter().map(print));
         rows
     })
 }

@@ -69,6 +69,8 @@ pub(crate) enum Turn {
     First,
     /// At the same time, one after the other; two at a time when those of cargo have ended.
     Beside,
+    /// At the same time as all others, one after the other: these wait for each other's messages most of the time.
+    Waiting,
 }
 
 /// Whether a part can run.
@@ -122,7 +124,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 46] = [
+pub(crate) static PARTS: [Part; 47] = [
     rust("form", "form", Tier::Check, form::check),
     rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
@@ -180,12 +182,13 @@ pub(crate) static PARTS: [Part; 46] = [
     reader("plant", "EDS readers: a plant", Tier::Gate, readers::plant),
     reader("values", "EDS readers: values of nodes", Tier::Gate, readers::values_of_nodes),
     reader("book", "the book and its links", Tier::Gate, readers::book),
-    reader("faults", "faults on a live bus", Tier::Gate, readers::faults),
+    Part { turn: Turn::Waiting, ..reader("faults", "faults on a live bus", Tier::Gate, readers::faults) },
     reader("dbc", "DBC readers", Tier::Gate, readers::dbc),
     reader("lsp", "language server", Tier::Gate, readers::language_server),
     reader("editors", "language server in Neovim", Tier::Gate, readers::editors),
     Part {
         uses: NODE,
+        turn: Turn::Waiting,
         ..reader("sdo", "SDO client", Tier::Gate, |runner| readers::sdo_client(runner, Amount::Sample))
     },
     Part {
@@ -343,6 +346,16 @@ pub(crate) static PARTS: [Part; 46] = [
         )
     },
     Part {
+        needs: &[Tool::Emacs],
+        installer: None,
+        ..reader(
+            "emacs",
+            "language server in Emacs",
+            Tier::Long("needs an editor that few machines have; the gate does the same in Neovim"),
+            readers::emacs,
+        )
+    },
+    Part {
         area: Area::Browser,
         turn: Turn::Beside,
         needs: BROWSER,
@@ -445,7 +458,7 @@ mod tests {
                 .iter()
                 .all(|name| name.bytes().all(|byte| byte.is_ascii_lowercase() || b"-2".contains(&byte)))
         );
-        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Wine));
+        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Emacs));
     }
 
     #[test]

@@ -240,6 +240,11 @@ pub(crate) fn editors(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(Command::new(editor).args(["-l", "tests/editors/neovim.lua"]).arg(beside("odgen")?))
 }
 
+/// The same in Emacs.
+pub(crate) fn emacs(runner: &mut Runner) -> Result<(), Failure> {
+    runner.run(Command::new("emacs").args(["--batch", "-l", "tests/editors/emacs.el"]).arg(beside("odgen")?))
+}
+
 /// The extension for VS Code as a package.
 pub(crate) fn extension(runner: &mut Runner) -> Result<(), Failure> {
     let odgen = beside("odgen")?;

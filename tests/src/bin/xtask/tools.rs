@@ -37,10 +37,12 @@ pub(crate) enum Tool {
     Mingw,
     /// Runs programs for Windows.
     Wine,
+    /// With eglot and yaml-mode.
+    Emacs,
 }
 
 impl Tool {
-    pub(crate) const ALL: [Tool; 12] = [
+    pub(crate) const ALL: [Tool; 13] = [
         Tool::Python,
         Tool::Node,
         Tool::Chromium,
@@ -53,6 +55,7 @@ impl Tool {
         Tool::WindowsTarget,
         Tool::Mingw,
         Tool::Wine,
+        Tool::Emacs,
     ];
 
     pub(crate) const fn name(self) -> &'static str {
@@ -69,6 +72,7 @@ impl Tool {
             Tool::WindowsTarget => "Rust's target x86_64-pc-windows-gnu",
             Tool::Mingw => "mingw-w64",
             Tool::Wine => "Wine",
+            Tool::Emacs => "Emacs with eglot and yaml-mode",
         }
     }
 
@@ -92,6 +96,7 @@ impl Tool {
             Tool::WindowsTarget => &["rustup target add x86_64-pc-windows-gnu"],
             Tool::Mingw => &["apt-get install gcc-mingw-w64-x86-64"],
             Tool::Wine => &["apt-get install wine wine64"],
+            Tool::Emacs => &["apt-get install emacs-nox elpa-eglot elpa-yaml-mode"],
         }
     }
 
@@ -118,6 +123,10 @@ impl Tool {
             Tool::WindowsTarget => has_target_of_rustc(WINDOWS_TARGET),
             Tool::Mingw => is_in_path("x86_64-w64-mingw32-gcc"),
             Tool::Wine => is_in_path("wine"),
+            Tool::Emacs => {
+                let check = "(progn (package-initialize) (require 'eglot) (require 'yaml-mode))";
+                is_in_path("emacs") && succeeds(Command::new("emacs").args(["--batch", "--eval", check]))
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use od_tests::{compile_with_sources, root};
 
-use crate::canopennode::project::{Project, of_text, of_workspace, reported};
+use crate::canopennode::project::{CUSTOM, Project, of_text, of_workspace, reported};
 
 /// The lines of a file that begin so.
 fn lines<'t>(text: &'t str, begin: &str) -> Vec<&'t str> {
@@ -151,6 +151,11 @@ fn what_the_stack_does_not_compile_without_is_refused() {
             &format!("has no {index}h ({name}), and CANopenNode does not compile without it"),
         );
     }
+    has(
+        &eds(&var("1017", "7", "rw", "0")),
+        "1017h (v1017) is UNSIGNED32, and CANopenNode starts only with UNSIGNED16",
+    );
+    has(&eds(&pdo(0x1201, 2)), "has 1201h (an SDO server) and no 1200h");
     has(&eds(&pdo(0x1400, 1)), "RPDO 1 has 1400h and no 1600h");
     has(&eds(&pdo(0x1A00, 1)), "TPDO 1 has 1A00h and no 1800h");
     has(
@@ -167,23 +172,87 @@ fn what_the_stack_has_to_be_set_up_for_is_reported() {
     };
     let whole = eds("");
     assert_eq!(reported("whole.eds", &whole).0, "");
-    for (index, expected) in [
-        ("1014", "compile the stack with `CO_CONFIG_EM` without `CO_CONFIG_EM_PRODUCER`"),
-        ("1016", "compile the stack with `CO_CONFIG_HB_CONS` set to 0"),
-        ("1018", "the stack's example reads the identity"),
-    ] {
-        has(&without(&whole, index), expected);
-    }
-    has(&eds(&var("1005", "7", "rw", "0x80")), "has no 1006h (communication cycle period)");
+    has(&without(&whole, "1018"), "CANopenNode's example reads the identity");
+    has(&eds(&var("100C", "6", "rw", "100")), "there is 100Ch and no 100Dh");
     let gap = [pdo(0x1400, 2), pdo(0x1404, 2), pdo(0x1600, 1), pdo(0x1604, 1)].concat();
     has(&eds(&gap), "number 5 is at place 2");
     let fixed = [pdo(0x1800, 2).replace("DefaultValue=1\n", "DefaultValue=0x180\n"), pdo(0x1A00, 1)].concat();
-    has(&eds(&fixed), "1800h.1 (s1) is the same for every node, and CANopenNode adds the node-ID to it");
+    has(&eds(&fixed), "1800h.1 (s1): the same for every node, and CANopenNode adds the node-ID");
     has(
         &eds(&[pdo(0x1800, 1), pdo(0x1A00, 1)].concat()),
-        "1800h has no sub-index 2, and CANopenNode does not start without it",
+        "1800h.2: missing, and CANopenNode does not start without it",
     );
-    has(&eds(&var("1017", "6", "rw", "100\nHighLimit=1000")), "1017h (v1017) has limits");
+    // Each kind once, however many there are.
+    let empty = [pdo(0x1800, 2), pdo(0x1801, 2), pdo(0x1A00, 1), pdo(0x1A01, 1)].concat();
+    has(&eds(&empty), "TPDO 1, TPDO 2: valid without a mapping, and CANopenNode starts with an error");
+    let elsewhere = [pdo(0x1800, 2), pdo(0x1A00, 1)].concat().replacen(
+        "DataType=5\nAccessType=rw\nDefaultValue=0",
+        "DataType=5\nAccessType=rw\nDefaultValue=1",
+        1,
+    );
+    let elsewhere = elsewhere.replacen(
+        "DataType=7\nAccessType=rw\nDefaultValue=0",
+        "DataType=7\nAccessType=rw\nDefaultValue=0x10170010",
+        1,
+    );
+    has(
+        &eds(&elsewhere),
+        "TPDO 1 (1017h may not be mapped in this direction): CANopenNode refuses the mapping",
+    );
+    let text = specification(
+        "  0x2000: {name: label, type: unicode-string, capacity: 8, access: rw, default: Pump}",
+    );
+    let (said, _) = reported("label.od.yaml", &text);
+    assert!(said.contains("2000h (label, 8 bytes): always whole for CANopenNode"), "{said}");
+    has(&eds(&var("1017", "6", "rw", "100\nHighLimit=1000")), "1017h (v1017): has limits");
+}
+
+/// A dictionary makes the settings that the stack needs for it, and a project is stopped that sets something else.
+#[test]
+fn the_stack_is_compiled_as_a_dictionary_needs_it() {
+    let set = |text: &str| of_text("set.eds", text).run("print_settings.c", &[]).replace('\n', ", ");
+    let history = "[1003]\nParameterName=errors\nObjectType=8\nSubNumber=2\n[1003sub0]\nParameterName=n\nDataType=5\nAccessType=rw\nDefaultValue=0\n\
+                   [1003sub1]\nParameterName=e\nDataType=7\nAccessType=ro\n";
+    let whole = eds("");
+    assert_eq!(set(&whole), "HB_CONS 01, NODE_GUARDING 00, EM 03, TIME 00, SYNC 00, PDO 00, ");
+    assert_eq!(
+        set(&without(&whole, "1016")),
+        "HB_CONS 00, NODE_GUARDING 00, EM 03, TIME 00, SYNC 00, PDO 00, "
+    );
+    assert_eq!(
+        set(&without(&whole, "1014")),
+        "HB_CONS 01, NODE_GUARDING 00, EM 00, TIME 00, SYNC 00, PDO 00, "
+    );
+    let more = [
+        history,
+        &var("1015", "6", "rw", "0"),
+        &var("100C", "6", "rw", "0"),
+        &var("100D", "5", "rw", "0"),
+        &var("1012", "7", "rw", "0x100"),
+    ]
+    .concat();
+    assert_eq!(set(&eds(&more)), "HB_CONS 01, NODE_GUARDING 01, EM 0F, TIME 03, SYNC 00, PDO 00, ");
+    let received = [var("1005", "7", "rw", "0x80"), pdo(0x1400, 2), pdo(0x1600, 1)].concat();
+    assert_eq!(
+        set(&eds(&received)),
+        "HB_CONS 01, NODE_GUARDING 00, EM 03, TIME 00, SYNC 01, PDO 35, 1006 missing, "
+    );
+    let both =
+        [received, var("1006", "7", "rw", "0"), pdo(0x1280, 3), pdo(0x1800, 2), pdo(0x1A00, 1)].concat();
+    assert_eq!(
+        set(&eds(&both)),
+        "HB_CONS 01, NODE_GUARDING 00, EM 03, TIME 00, SYNC 03, PDO 3F, SDO_CLI 0B, FIFO 01, 1006 there, "
+    );
+
+    let project = of_text("set.eds", &eds(&both));
+    for custom in [&[CUSTOM][..], &[]] {
+        assert_eq!(project.complaints(custom), "", "{custom:?}");
+        let unchecked = project.complaints(&[custom, &["-DCO_CONFIG_PDO=3"]].concat());
+        assert!(unchecked.contains("past limits, locks and conditions"), "{custom:?}: {unchecked}");
+    }
+    let project = of_text("bare.eds", &without(&whole, "1014"));
+    let history = project.complaints(&[CUSTOM, "-DCO_CONFIG_EM=CO_CONFIG_EM_HISTORY"]);
+    assert!(history.contains("there is no 1003h, and the stack does not start"), "{history}");
 }
 
 /// PDO 5 is the second one of the stack, to which it adds nothing of its own: the node-ID comes from the generated function, and where the second one

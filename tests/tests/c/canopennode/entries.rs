@@ -106,7 +106,8 @@ fn attributes(entry: &Json) -> u8 {
     };
     // Numbers whose bytes a processor may have in another order.
     let multi_byte = ["16", "32", "64"].iter().any(|bits| name.ends_with(bits));
-    let string = matches!(name, "visible-string" | "unicode-string");
+    // A text to the stack ends at its first byte of 0.
+    let string = name == "visible-string";
     read | write | mapping | if multi_byte { 0x40 } else { 0 } | if string { 0x80 } else { 0 }
 }
 

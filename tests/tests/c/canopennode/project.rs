@@ -28,6 +28,9 @@ pub(crate) struct Project {
     pub(crate) reported: String,
 }
 
+/// What makes the stack include the settings of a dictionary.
+pub(crate) const CUSTOM: &str = "-DCO_DRIVER_CUSTOM";
+
 /// Of some programs, those that are there.
 fn found<const N: usize>(programs: [&'static str; N]) -> Vec<&'static str> {
     let is_there = |program: &&str| {
@@ -141,7 +144,7 @@ impl Project {
             let own = ["interface.c", program].map(|file| tests.join(file));
             let mut command = Command::new(compiler);
             command
-                .args([LANGUAGE, "-fsanitize=undefined", "-fno-sanitize-recover=undefined"])
+                .args([LANGUAGE, CUSTOM, "-fsanitize=undefined", "-fno-sanitize-recover=undefined"])
                 .args(WARNINGS);
             command.args(folders).args(generated).args(own).arg("-o").arg(&made);
             succeeds(&command.output().unwrap(), &format!("{compiler}: {}", self.key()));
@@ -150,7 +153,7 @@ impl Project {
         }
         for compiler in found(["g++", "clang++"]) {
             let mut command = Command::new(compiler);
-            command.args(["-std=c++11", "-fsyntax-only"]).args(WARNINGS).args(folders);
+            command.args(["-std=c++11", CUSTOM, "-fsyntax-only"]).args(WARNINGS).args(folders);
             succeeds(
                 &command.arg(tests.join("includes.cpp")).output().unwrap(),
                 &format!("{compiler}: {}", self.key()),
@@ -158,6 +161,16 @@ impl Project {
         }
         assert!(output.is_some(), "generated C is compiled: install a C compiler");
         output.unwrap()
+    }
+
+    /// What a compiler says of the files with settings of a project.
+    pub(crate) fn complaints(&self, settings: &[&str]) -> String {
+        let tests = root().join("tests/c/canopennode");
+        let folders = ["-I".as_ref(), tests.as_os_str(), "-I".as_ref(), self.folder.as_os_str()];
+        let mut command = Command::new("cc");
+        command.args([LANGUAGE, "-fsyntax-only"]).args(settings).args(folders);
+        let output = command.arg(self.folder.join("OD_extension.c")).output().unwrap();
+        String::from_utf8_lossy(&output.stderr).into_owned()
     }
 
     /// Writes a file next to those of the device.

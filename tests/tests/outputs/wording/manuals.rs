@@ -6,7 +6,7 @@ use serde_json::Value as Json;
 use super::{SYSTEMS, text};
 
 /// These parts of a dump are about the manual and not about the device.
-const ABOUT_THE_MANUAL: [&str; 3] = ["document", "errata", "origin"];
+const ABOUT_THE_MANUAL: [&str; 4] = ["document", "errata", "gap", "origin"];
 
 /// In the pitch system, `manual` is also a way of moving the axis by hand.
 const BY_HAND: [&str; 7] = ["and", "command", "control", "function", "functions", "operation", "status"];

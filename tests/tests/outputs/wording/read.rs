@@ -78,10 +78,16 @@ fn named(entry: &Entry, name: &str) -> Option<i128> {
     special.map(|special| special.value).or_else(|| value.map(|value| value.value))
 }
 
+/// Signs of plane angle, which follow the number directly in the manual.
+const ANGLES: [&str; 3] = ["°", "′", "″"];
+
 /// A physical value in the unit of the entry.
 fn physical(entry: &Entry, text: &str) -> i128 {
     let unit = entry.unit.as_ref().unwrap_or_else(|| panic!("{text} of {}, which has no unit", entry.name));
-    let (amount, symbol) = text.rsplit_once(' ').unwrap_or_else(|| panic!("{text} has no unit"));
+    // The manual writes `87.00°`.
+    let angle = ANGLES.iter().find_map(|sign| Some((text.strip_suffix(sign)?, *sign)));
+    let parts = angle.filter(|(amount, _)| !amount.ends_with(' ')).or_else(|| text.rsplit_once(' '));
+    let (amount, symbol) = parts.unwrap_or_else(|| panic!("{text} has no unit"));
     assert_eq!(transliterate(symbol), transliterate(&unit.symbol), "{text} of {}", entry.name);
     let steps = amount.split(" × ").map(ratio).reduce(|left, right| left.checked_mul(right).unwrap());
     steps.unwrap().checked_div(unit.scale).unwrap().to_whole().expect("a whole number of steps")
@@ -101,7 +107,9 @@ fn ratio(text: &str) -> Ratio {
 /// One raw step: `0.1 °C`, or a symbol alone.
 pub(crate) fn step(text: &str) -> Step {
     let is_number = |text: &str| text.starts_with(|first: char| first.is_ascii_digit());
-    match text.split_once(' ').filter(|(number, _)| is_number(number)) {
+    let angle = ANGLES.iter().find_map(|sign| Some((text.strip_suffix(sign)?, *sign)));
+    let angle = angle.filter(|(amount, _)| !amount.ends_with(' '));
+    match angle.or_else(|| text.split_once(' ')).filter(|(number, _)| is_number(number)) {
         Some((number, symbol)) => Step { scale: ratio(number), symbol: transliterate(symbol) },
         None => Step { scale: Ratio::ONE, symbol: transliterate(text) },
     }

@@ -35,7 +35,7 @@ const PROVOKED: &[Provocation] = &[
     Provocation { code: known::NO_CAPACITY, diagnostics: names_clash },
     Provocation { code: known::NOT_IN_FIRMWARE, diagnostics: names_clash },
     Provocation { code: known::STACK_REFUSES, diagnostics: without_heartbeat },
-    Provocation { code: known::STACK_DIFFERS, diagnostics: without_heartbeat },
+    Provocation { code: known::STACK_DIFFERS, diagnostics: with_bytes },
 ];
 
 fn unread(bytes: Vec<u8>) -> Diagnostics {
@@ -70,8 +70,19 @@ fn names_clash() -> Diagnostics {
 
 /// A device that lacks what a stack needs.
 fn without_heartbeat() -> Diagnostics {
-    let text = "od-spec: 1\ntitle: T\nuses: [cia301]\ndevices: {d: {name: D, bit-rates: [125]}}\n";
-    let (sources, _, compiled) = run("without_heartbeat.od.yaml", text);
+    of_stack("od-spec: 1\ntitle: T\nuses: [cia301]\ndevices: {d: {name: D, bit-rates: [125]}}\n")
+}
+
+fn with_bytes() -> Diagnostics {
+    of_stack(
+        "od-spec: 1\ntitle: T\nuses: [cia301]\ndevices: {d: {name: D, bit-rates: [125], features: [heartbeat producer]}}\n\
+         objects:\n  0x2000: {name: raw, type: octet-string, capacity: 4, access: rw}\n",
+    )
+}
+
+/// What is said when C for a stack is made.
+fn of_stack(text: &str) -> Diagnostics {
+    let (sources, _, compiled) = run("stack.od.yaml", text);
     let system = compiled.system.unwrap();
     let mut diagnostics = Diagnostics::new();
     let kinds = [c::Kind::CanopenNode];

@@ -9,6 +9,12 @@
 
 #include "OD.h"
 
+#ifdef CO_CONFIG_PDO
+#if ((CO_CONFIG_PDO) != 0) && (((CO_CONFIG_PDO) & CO_CONFIG_PDO_OD_IO_ACCESS) == 0)
+#error "CO_CONFIG_PDO_OD_IO_ACCESS: RPDOs would write to memory, past limits, locks and conditions"
+#endif
+#endif
+
 /* 2^63: an UNSIGNED64 counts from here, so that 64 bits with a sign order it. */
 #define HALF 0x8000000000000000ULL
 
@@ -492,6 +498,9 @@ ODR_t OD_extendBehind(OD_entry_t *entry, OD_extension_t *extension) {
     return outcome;
 }
 
+/* The node-ID that was added last; 0: none yet. */
+static uint8_t added_node_id = 0U;
+
 ODR_t OD_addNodeId(uint8_t nodeId) {
     ODR_t outcome = ((nodeId >= 1U) && (nodeId <= 127U)) ? ODR_OK : ODR_INVALID_VALUE;
     uint16_t at;
@@ -503,10 +512,14 @@ ODR_t OD_addNodeId(uint8_t nodeId) {
         outcome = OD_getSub(OD_find(OD, value->index), value->subIndex, &io, true);
         if ((outcome == ODR_OK) && (io.stream.dataOrig != NULL)) {
             uint8_t *const bytes = (uint8_t *)io.stream.dataOrig;
-            if (bits_of(bytes, value->size, is_in_order) == value->withoutNodeId) {
+            const uint64_t found = bits_of(bytes, value->size, is_in_order);
+            if ((found == value->withoutNodeId) || (found == (value->withoutNodeId + added_node_id))) {
                 put_bits(bytes, value->size, is_in_order, value->withoutNodeId + nodeId);
             }
         }
+    }
+    if (outcome == ODR_OK) {
+        added_node_id = nodeId;
     }
     return outcome;
 }

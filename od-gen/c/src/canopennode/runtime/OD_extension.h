@@ -39,8 +39,9 @@ void OD_extendAll(OD_isUnlocked_t isUnlocked);
 ODR_t OD_extendBehind(OD_entry_t *entry, OD_extension_t *extension);
 
 /**
- * Adds the node-ID to the values that have it in their default and that the stack does not add it to by itself. To be called before `CO_CANopenInit`,
- * after stored values have been restored. A value that was changed stays as it is; one that is the default without the node-ID gets it.
+ * Adds the node-ID to the values that have it in their default and that the stack does not add it to by itself. To be called before each
+ * `CO_CANopenInit`, after stored values have been restored: also after LSS gave another node-ID. A value that is the default, without a node-ID or
+ * with the one that was added before, gets this one; a value that was changed stays as it is.
  */
 ODR_t OD_addNodeId(uint8_t nodeId);
 

@@ -10,8 +10,8 @@ use crate::progress::Audience;
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Specifications, EDS, DCF, XDD and XDC files, directories to look for them in, or `-` for standard input [default: the
-    /// `*.od.yaml` of the current directory]
+    /// Specifications, EDS, DCF, XDD and XDC files, parameter files that name theirs, directories to look for specifications
+    /// and EDS files in, or `-` for standard input [default: the `*.od.yaml` of the current directory]
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
 

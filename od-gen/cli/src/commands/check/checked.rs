@@ -4,14 +4,14 @@ use std::path::Path;
 
 use od_formats::findings::Findings;
 use od_gen::rust;
-use od_gen::source::{FileLoader, compile_bytes_as, compile_file_as, read_input};
+use od_gen::source::{self, FileLoader, read_input};
 use od_readers::remark;
 use od_spec::diag::{Diagnostic, Diagnostics, Severity, codes};
 use od_spec::eds::is_eds;
 use od_spec::file_name;
-use od_spec::source::SourceMap;
+use od_spec::source::{FileId, SourceFile, SourceMap};
 use od_spec::xdd::is_xdd;
-use od_spec::{Compiled, Strictness};
+use od_spec::{Compiled, OnDevice, Strictness, add_source, compile_as, is_parameter_file, on_device};
 
 use super::args::CheckArgs;
 use super::inputs::Input;
@@ -41,6 +41,8 @@ pub(super) struct Checked {
 pub(super) enum Kind {
     Specification,
     Eds,
+    /// A parameter file, which is checked on the device that it names.
+    Parameters,
     /// It cannot be read.
     Unknown,
 }
@@ -50,7 +52,19 @@ impl Kind {
     pub(super) const fn is_fixed(self) -> bool {
         match self {
             Self::Eds => true,
-            Self::Specification | Self::Unknown => false,
+            Self::Specification | Self::Parameters | Self::Unknown => false,
+        }
+    }
+
+    /// What a text is.
+    fn of(file: &SourceFile) -> Self {
+        let (name, text) = (file.name(), file.text());
+        if is_eds(name, text) || is_xdd(name, text) {
+            Self::Eds
+        } else if is_parameter_file(text) {
+            Self::Parameters
+        } else {
+            Self::Specification
         }
     }
 }
@@ -66,17 +80,15 @@ impl Checked {
 pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy, report: &Report) -> Checked {
     let strictness = if args.strict { Strictness::Standard } else { Strictness::Foreign };
     let mut sources = SourceMap::new();
-    let mut compiled = compile(input, strictness, &mut sources, &mut report.loader());
-    let root = sources.files().next().map(|(id, _)| id);
-    if let Some(root) = root {
-        remark(&sources, root, &mut compiled);
-    }
-    let Compiled { system, mut diagnostics, untranslated, .. } = compiled;
-    let kind = match root.map(|root| sources.file(root)) {
-        None => Kind::Unknown,
-        Some(file) if is_eds(file.name(), file.text()) || is_xdd(file.name(), file.text()) => Kind::Eds,
-        Some(_) => Kind::Specification,
+    let mut loader = report.loader();
+    let (kind, compiled) = match opened(input, &mut sources, &mut loader) {
+        Ok(root) => {
+            let kind = Kind::of(sources.file(root));
+            (kind, compile(kind, root, strictness, &mut sources, &mut loader))
+        }
+        Err(diagnostic) => (Kind::Unknown, refused(*diagnostic)),
     };
+    let Compiled { system, mut diagnostics, untranslated, .. } = compiled;
     if let Some(system) = &system {
         for device in system.devices.iter().filter(|_| args.rust) {
             let _ = rust::tokens(system, device, &mut diagnostics);
@@ -85,7 +97,7 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy, report: &R
     }
     let errors = match kind {
         Kind::Eds => Errors::CanBeAllowed,
-        Kind::Specification | Kind::Unknown => Errors::Stay,
+        Kind::Specification | Kind::Parameters | Kind::Unknown => Errors::Stay,
     };
     let (mut shown, mut hidden_notes, mut hidden_repairs) = (Diagnostics::new(), 0, 0);
     for diagnostic in &policy.apply(&diagnostics, errors) {
@@ -103,20 +115,39 @@ pub(super) fn check(input: &Input, args: &CheckArgs, policy: &Policy, report: &R
     Checked { name: input.name(), kind, objects, shown, hidden_notes, hidden_repairs, sources }
 }
 
-fn compile(
+/// Adds the text of an input.
+fn opened(
     input: &Input,
+    sources: &mut SourceMap,
+    loader: &mut FileLoader,
+) -> Result<FileId, Box<Diagnostic>> {
+    match input {
+        Input::File(path) => source::opened(path, sources, loader),
+        Input::Stdin(name) => match read_input(std::io::stdin().lock()) {
+            Ok(bytes) => add_source(sources, name, bytes),
+            Err(error) => Err(Box::new(unreadable(name, &error.to_string()))),
+        },
+        Input::Missing { diagnostic, .. } => Err(Box::new(diagnostic.clone())),
+    }
+}
+
+/// The model and the findings of a text.
+fn compile(
+    kind: Kind,
+    root: FileId,
     strictness: Strictness,
     sources: &mut SourceMap,
     loader: &mut FileLoader,
 ) -> Compiled {
-    match input {
-        Input::File(path) => compile_file_as(strictness, path, sources, loader),
-        Input::Stdin(name) => match read_input(std::io::stdin().lock()) {
-            Ok(bytes) => compile_bytes_as(strictness, name, bytes, sources, loader),
-            Err(error) => refused(unreadable(name, &error.to_string())),
-        },
-        Input::Missing { diagnostic, .. } => refused(diagnostic.clone()),
+    if kind == Kind::Parameters {
+        let OnDevice { spec, diagnostics, .. } = on_device(sources, root, loader);
+        if spec.is_some() || diagnostics.has_errors() {
+            return Compiled::refused(diagnostics);
+        }
     }
+    let mut compiled = compile_as(strictness, sources, root, loader);
+    remark(sources, root, &mut compiled);
+    compiled
 }
 
 fn unreadable(name: &str, reason: &str) -> Diagnostic {

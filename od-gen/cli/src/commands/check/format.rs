@@ -15,7 +15,7 @@ pub(super) fn of_file(checked: &Checked, format: CheckFormat, args: &CheckArgs, 
             let most = match checked.kind {
                 _ if args.all => Most::All,
                 Kind::Eds => Most::OfEds,
-                Kind::Specification | Kind::Unknown => Most::OfSpecification,
+                Kind::Specification | Kind::Parameters | Kind::Unknown => Most::OfSpecification,
             };
             let shows = if args.all { "`--format json`" } else { "`--all`" };
             for_people(shown, sources, most, shows, colour)

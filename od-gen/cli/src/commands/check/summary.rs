@@ -7,7 +7,7 @@ use od_spec::diag::render::{plural, summary};
 use od_spec::diag::{Code, Diagnostics, Severity};
 use od_spec::visible::visible;
 
-use super::checked::Checked;
+use super::checked::{Checked, Kind};
 
 /// How many files at most say that nothing was found in them.
 const FEW: usize = 5;
@@ -20,7 +20,8 @@ const MOST_FREQUENT: usize = 3;
 
 /// The line of one file of so many; `None` where nothing was found in one of many.
 pub(super) fn of_file(checked: &Checked, files: usize) -> Option<String> {
-    if checked.shown.is_empty() && (files > FEW || checked.objects.is_none()) {
+    let is_read = checked.objects.is_some() || checked.kind == Kind::Parameters;
+    if checked.shown.is_empty() && (files > FEW || !is_read) {
         return None;
     }
     let counts = match summary(&checked.shown) {

@@ -18,9 +18,17 @@ use crate::{Case, PITCH_SYSTEM, difference, system};
 
 /// What is reported otherwise: the number of elements by the elements that came and went, remote frames by the COB-ID
 /// that holds the flag. Strings with a capacity are not in the pitch control system; see the lamp. Nodes are in DCF
-/// files; see the command. Modules and what a file says in its own words only files have; see `eds`.
-const TOLD_OTHERWISE: [Fact; 6] =
-    [Fact::Count, Fact::RemoteFrames, Fact::Capacity, Fact::Modules, Fact::Further, Fact::Node];
+/// files; see the command. Modules and what a file says in its own words only files have; see `eds`. Transitions are those of
+/// their machine.
+const TOLD_OTHERWISE: [Fact; 7] = [
+    Fact::Count,
+    Fact::RemoteFrames,
+    Fact::Capacity,
+    Fact::Modules,
+    Fact::Further,
+    Fact::Node,
+    Fact::Transitions,
+];
 
 /// The specification without what it says about the printed manual, which is more than half of the file.
 static DEVICES: LazyLock<&str> = LazyLock::new(|| PITCH.split_once("\ndocument:\n").unwrap().0);

@@ -196,6 +196,24 @@ pub(crate) const CASES: &[Case] = &[
         ],
     },
     Case {
+        name: "what the manual leaves open",
+        at: "  0x6865:",
+        find: "What the default 0 means is not stated",
+        replace: "What 0 means is not stated",
+        expected: &[
+            "pmc: ~ 6865h difference error window: gap: What the default 0 means is not stated: no monitoring, or an… -> What 0 means is not stated: no monitoring, or an error at on… [documents]",
+        ],
+    },
+    Case {
+        name: "words to look for",
+        at: "  0x3000:",
+        find: "collective fault, group fault",
+        replace: "collective fault",
+        expected: &[
+            "pmm: ~ 3000h PMM status: search: PMM state, collective fault, group fault -> PMM state, collective fault [documents]",
+        ],
+    },
+    Case {
         name: "a warning",
         at: "  0x30E0:",
         find: "only after this time",

@@ -32,8 +32,8 @@ pub(crate) const CASES: &[Case] = &[
         find: "priority: A, reaction: The motor is switched off.",
         replace: "priority: B, reaction: The motor runs on.",
         expected: &[
-            "pmc: ~ error 2310h Over current at controller output: reaction: The motor is switched off. -> The motor runs on. [behaviour]",
-            "pmc: ~ error 2310h Over current at controller output: priority: A -> B [behaviour]",
+            "pmc: ~ error 6080h Software trap, Firmware error: reaction: The motor is switched off. -> The motor runs on. [behaviour]",
+            "pmc: ~ error 6080h Software trap, Firmware error: priority: A -> B [behaviour]",
         ],
     },
     Case {

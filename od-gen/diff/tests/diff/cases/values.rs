@@ -212,6 +212,8 @@ pub(crate) const CASES: &[Case] = &[
         expected: &[
             "pmc: ~ 506Ch velocity actual value 16bit: name: actual velocity 16bit -> velocity actual value 16bit [plc, firmware]",
             "pmc: ~ 506Ch velocity actual value 16bit: unit: 1 PU/s, 1 PU/s is 0.01 °/s -> 1 PU, 1 PU is 0.01 ° [plc, firmware]",
+            "pmc: ~ 506Ch velocity actual value 16bit: search: pitch speed, pitch rate, actual pitch rate, blade speed -> pitch angle, actual pitch angle, blade angle, blade position… [documents]",
+            "pmc: ~ 506Ch velocity actual value 16bit, in de: search: Pitchgeschwindigkeit, Pitchrate, Istgeschwindigkeit, Blattge… -> Blattwinkel, Pitchwinkel, aktueller Blattwinkel, Istposition… [documents]",
             "pmc: ~ 506Ch velocity actual value 16bit: alias: 606Ch × 1, rounding down, outside saturate -> 6064h × 1, rounding down, outside saturate [plc]",
         ],
     },

@@ -11,13 +11,13 @@ use std::path::Path;
 use od_bus::client::{AccessError, Bus, Client, Fact, Remark, recognize};
 use od_gen::Artifact;
 use od_gen::files::Existing;
-use od_gen::source::compile_bytes_as;
+use od_gen::source::compile_bytes;
 use od_import::import;
 use od_import::yaml::{Options, specification};
+use od_spec::Compiled;
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::model::{DataType, EntryId, Index, SubIndex};
 use od_spec::source::SourceMap;
-use od_spec::{Compiled, Strictness};
 
 use super::helped;
 use crate::exit::ERRORS;
@@ -117,7 +117,7 @@ fn eds_name(name: &str) -> String {
 }
 
 fn compiled(name: &str, bytes: Vec<u8>, sources: &mut SourceMap, report: &Report) -> Compiled {
-    compile_bytes_as(Strictness::Foreign, &eds_name(name), bytes, sources, &mut report.loader())
+    compile_bytes(&eds_name(name), bytes, sources, &mut report.loader())
 }
 
 /// The specification of a stored EDS.
