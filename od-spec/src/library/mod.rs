@@ -1,5 +1,6 @@
 //! The built-in libraries as models: what `from:` and features give.
 
+pub(crate) mod kept;
 pub(crate) mod shipped;
 
 use std::collections::BTreeMap;
