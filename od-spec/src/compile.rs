@@ -105,9 +105,9 @@ pub fn compile_with_modules(
     compile_eds(standard::rules(&check::RULES), sources, root, Strictness::Foreign, Some(modules))
 }
 
-/// Whether a text is a specification, a part of one or a library: its first key says so.
+/// Whether a text says by a key that it is a specification, a part of one or a library.
 pub fn is_specification(text: &str) -> bool {
-    yaml::begins_with(text, keys::SPEC_VERSION)
+    yaml::is_marked(text, keys::SPEC_VERSION) || yaml::is_marked(text, keys::PART_OF)
 }
 
 /// Whether a text shows by its beginning or its name what it is, and is not a specification.

@@ -201,16 +201,30 @@ async def ask(
         check.that(not wrong, f"{name}: {what}: {wrong[:1]} lies outside")
 
 
-# Language, name and text of documents, and whether the extension sends them to the server.
+# Language, name and text of documents, and whether they are for odgen: the extension sends them, and the server has something to say.
 CONTENTS = [
     ("yaml", "a.yaml", "# comment\n\nod-spec: 1\n", True),
-    ("yaml", "plant.yaml", "od-plant : 1\n", True),
+    ("yaml", "b.yaml", "title: Pump\nod-spec: 1\n", True),
+    ("yaml", "c.yaml", "part-of: pump.od.yaml\n", True),
+    ("yaml", "plant.yaml", "title: Plant\nod-plant : 1\n", True),
+    ("yaml", "values.yaml", "spec: pump.od.yaml\nod-parameters: 1\n", True),
+    ("yaml", "late.yaml", "# comment\n" * 100 + "od-spec: 1\n", False),
     ("yaml", "parameters.yaml", "services: {}\n", False),
-    ("yaml", "a.yaml", "about: od-spec is a language\n", False),
+    ("yaml", "d.yaml", "about: od-spec is a language\n", False),
     ("yaml", "a.od.yaml", "", True),
     ("canopen-eds", "a.eds", "", True),
     ("json", "a.json", "{}", False),
 ]
+
+
+async def contents(client: Client, check: Check) -> None:
+    """The server takes the same files as the extension; each of them is wrong."""
+    for language, name, text, is_ours in CONTENTS:
+        uri = f"file:///nowhere/{name}"
+        item = lsp.TextDocumentItem(uri=uri, language_id=language, version=1, text=text)
+        client.text_document_did_open(lsp.DidOpenTextDocumentParams(item))
+        said = await client.diagnostics(uri, 1)
+        check.that(bool(said) == is_ours, f"{name}: {[one.message for one in said]}")
 
 
 def of_editors(check: Check) -> None:
@@ -250,6 +264,7 @@ async def run(odgen: Path, specs: list[Path]) -> int:
     client.initialized(lsp.InitializedParams())
     for spec in specs:
         await session(client, answer.capabilities, odgen, spec, check)
+    await contents(client, check)
     await client.shutdown_async(None)
     client.exit(None)
     await client.stop()

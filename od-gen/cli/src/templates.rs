@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use clap::ValueEnum;
 use od_documents::{TemplateError, Templates};
@@ -10,7 +11,7 @@ use od_spec::file_name;
 use od_spec::source::SourceMap;
 
 use crate::exit::ERRORS;
-use crate::memory;
+use crate::limits::{self, Exceeded, Limits};
 use crate::report::Report;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -33,20 +34,28 @@ impl From<DocsFormat> for od_documents::Format {
     }
 }
 
-/// Bytes that a user's templates may take. The pages of a device with 100,000 entries need a tenth of it.
-const MEMORY: usize = 2 << 30;
+/// What a user's templates may take. The pages of a device with 100,000 entries need a tenth of it.
+const LIMITS: Limits = Limits { memory: 2 << 30, time: Duration::from_secs(600) };
 
-/// Prints pages with a user's own templates. If they take more memory than pages can need, the command ends with a message
-/// before anything is written.
+/// Prints pages with a user's own templates. If they take more than pages can need, the command ends with a message before anything is
+/// written.
 pub(crate) fn printed<T>(report: &Report, print: impl FnOnce() -> T) -> T {
-    let exceeded = || {
-        let message = format!("the templates take more than {} GiB of memory", MEMORY >> 30);
-        let help = "look for a text or list that a loop or macro makes longer at every step";
+    let exceeded = |limit| {
+        let (message, help) = match limit {
+            Exceeded::Memory => (
+                format!("the templates take more than {} GiB of memory", LIMITS.memory >> 30),
+                "look for a text or list that a loop or macro makes longer at every step",
+            ),
+            Exceeded::Time => (
+                format!("the templates take more than {} minutes", LIMITS.time.as_secs() / 60),
+                "look for a filter or test that works on a very long list, such as `[0] * 1000000000`",
+            ),
+        };
         std::process::exit(
             report.refuse(Diagnostic::without_place(codes::BAD_TEMPLATE, message).help(help)).into(),
         );
     };
-    memory::limited(MEMORY, exceeded, print)
+    limits::limited(LIMITS, exceeded, print)
 }
 
 /// Why there are no templates.

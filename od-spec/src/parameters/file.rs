@@ -38,7 +38,7 @@ pub struct ParameterFile {
 
 /// Whether a text is a parameter file: its first key says so.
 pub fn is_parameter_file(text: &str) -> bool {
-    yaml::begins_with(text, PARAMETERS_VERSION)
+    yaml::is_marked(text, PARAMETERS_VERSION)
 }
 
 /// Reads a parameter file. What is wrong with it by itself goes to `diagnostics`: whether the device has what it names, and

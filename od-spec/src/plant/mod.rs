@@ -302,5 +302,5 @@ impl Plant {
 
 /// Whether a text is a plant file: its first key says so.
 pub fn is_plant(text: &str) -> bool {
-    crate::yaml::begins_with(text, PLANT_VERSION)
+    crate::yaml::is_marked(text, PLANT_VERSION)
 }

@@ -165,11 +165,13 @@ impl Document {
     }
 }
 
-/// Whether the first key of a text is this one.
-pub(crate) fn begins_with(text: &str, key: &str) -> bool {
-    let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
-    let first = lines.find(|line| *line != "---");
-    first.and_then(|line| line.strip_prefix(key)).is_some_and(|rest| rest.trim_start().starts_with(':'))
+/// Lines of a text in which it says what it is. `content.js` of the extension for VS Code has the same number.
+const BEGINNING: usize = 100;
+
+/// Whether a text says by this key what it is: it stands at the beginning of a line, after nothing but comments and a few other keys.
+pub(crate) fn is_marked(text: &str, key: &str) -> bool {
+    let begins = |line: &str| line.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with(':'));
+    text.lines().take(BEGINNING).any(begins)
 }
 
 /// Reads one YAML document. `None` when nothing usable was found; the reason is in `diagnostics` then.
