@@ -54,8 +54,13 @@ pub fn write_text(path: &str, text: String, directory: &Path) -> Result<Written,
         return Err(render(&diagnostics, &sources, Format::Human, false).into());
     };
     let mut found = Diagnostics::new();
-    let set =
-        c::artifacts(&system, system.devices.iter(), &Provenance::of(&sources), &[Kind::Plain], &mut found);
+    let set = c::artifacts(
+        &system,
+        system.devices.iter(),
+        &Provenance::of(&sources),
+        &Kind::Plain.into(),
+        &mut found,
+    );
     if found.has_errors() {
         return Err(render(&found, &sources, Format::Human, false).into());
     }

@@ -199,6 +199,12 @@ fn what_the_stack_has_to_be_set_up_for_is_reported() {
         &eds(&elsewhere),
         "TPDO 1 (1017h may not be mapped in this direction): CANopenNode refuses the mapping",
     );
+    let wide = elsewhere.replace("0x10170010", "0x20000020");
+    let narrow = var("2000", "6", "rw", "0\nPDOMapping=1");
+    has(
+        &eds(&[wide, narrow].concat()),
+        "TPDO 1 (2000h has 16 bits, and 32 are mapped): CANopenNode refuses the mapping",
+    );
     let text = specification(
         "  0x2000: {name: label, type: unicode-string, capacity: 8, access: rw, default: Pump}",
     );
@@ -246,12 +252,12 @@ fn the_stack_is_compiled_as_a_dictionary_needs_it() {
 
     let project = of_text("set.eds", &eds(&both));
     for custom in [&[CUSTOM][..], &[]] {
-        assert_eq!(project.complaints(custom), "", "{custom:?}");
-        let unchecked = project.complaints(&[custom, &["-DCO_CONFIG_PDO=3"]].concat());
+        assert_eq!(project.complaints("OD_extension.c", custom), "", "{custom:?}");
+        let unchecked = project.complaints("OD_extension.c", &[custom, &["-DCO_CONFIG_PDO=3"]].concat());
         assert!(unchecked.contains("past limits, locks and conditions"), "{custom:?}: {unchecked}");
     }
     let project = of_text("bare.eds", &without(&whole, "1014"));
-    let history = project.complaints(&[CUSTOM, "-DCO_CONFIG_EM=CO_CONFIG_EM_HISTORY"]);
+    let history = project.complaints("OD_extension.c", &[CUSTOM, "-DCO_CONFIG_EM=CO_CONFIG_EM_HISTORY"]);
     assert!(history.contains("there is no 1003h, and the stack does not start"), "{history}");
 }
 
@@ -437,7 +443,7 @@ fn the_files_are_the_same_in_every_run() {
             &system,
             system.devices.iter(),
             &provenance,
-            &[od_c::Kind::CanopenNode],
+            &od_c::Kind::CanopenNode.into(),
             &mut diagnostics,
         )
     };
