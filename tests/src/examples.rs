@@ -69,6 +69,7 @@ fn examples(spec: &str, system: &System, sources: &SourceMap) -> Result<Vec<Exam
         ("docs/book/guides/ci.md", "diff", fenced("text", &changes(spec, system)?)),
         ("docs/book/guides/canopennode.md", "canopennode", fenced("c", &stack(system, sources)?)),
         ("docs/book/guides/c.md", "c", fenced("c", &written("valve.c")?)),
+        ("docs/book/guides/c.md", "c-sdo", fenced("c", &written("sdo_server.c")?)),
         ("docs/book/guides/c.md", "c-entry", fenced("c", &c_entry(system, &provenance)?)),
         ("docs/book/guides/writer.md", "docs", tables(system)?),
         ("docs/book/formats/dbc.md", "dbc", fenced("text", &frames(system))),
