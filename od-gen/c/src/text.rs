@@ -18,7 +18,7 @@ const INDENT: usize = 4;
 /// A file that is being written.
 #[derive(Default)]
 pub(super) struct Text {
-    text: String,
+    written: String,
     level: usize,
     /// What our names begin with in lines of code.
     prefix: Prefix,
@@ -31,7 +31,7 @@ impl Text {
     }
 
     pub(super) fn into_bytes(self) -> Vec<u8> {
-        self.text.into_bytes()
+        self.written.into_bytes()
     }
 
     /// A line, or an empty one.
@@ -44,15 +44,15 @@ impl Text {
     fn plain_line(&mut self, line: &str) {
         if !line.is_empty() {
             let indent = self.level * INDENT;
-            let _ = write!(self.text, "{:indent$}{line}", "");
+            let _ = write!(self.written, "{:indent$}{line}", "");
         }
-        self.text.push('\n');
+        self.written.push('\n');
     }
 
     /// An empty line, unless there is one or the file begins.
     pub(super) fn gap(&mut self) {
-        if !self.text.is_empty() && !self.text.ends_with("\n\n") {
-            self.text.push('\n');
+        if !self.written.is_empty() && !self.written.ends_with("\n\n") {
+            self.written.push('\n');
         }
     }
 
@@ -186,7 +186,7 @@ pub(super) fn header(about: &str, guard: &str, inside: &Text) -> Text {
     text.line(&format!("#ifndef {guard}"));
     text.line(&format!("#define {guard}"));
     text.gap();
-    text.text.push_str(&inside.text);
+    text.written.push_str(&inside.written);
     text.gap();
     text.line(&format!("#endif /* {guard} */"));
     text

@@ -21,8 +21,8 @@ struct Field<'p, 'a> {
 impl Field<'_, '_> {
     /// The first byte, where the value begins and ends at bytes.
     fn byte(&self) -> Option<u32> {
-        let is_whole = self.planned.first_bit % 8 == 0 && self.planned.bits % 8 == 0;
-        is_whole.then(|| self.planned.first_bit / 8)
+        let is_whole = self.planned.first_bit.is_multiple_of(8) && self.planned.bits.is_multiple_of(8);
+        is_whole.then_some(self.planned.first_bit / 8)
     }
 
     /// A mask of its bits at the beginning of a frame.

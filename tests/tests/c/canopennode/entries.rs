@@ -61,10 +61,8 @@ fn expected(device: &Json) -> Vec<String> {
         let entries = object["entries"].as_array().unwrap();
         lines.push(format!("object {index} {} {}", kind(object, entries), entries.len()));
         for entry in entries {
-            let bytes = bytes(&index, entry).map(|bytes| match command(device, &index, entry) {
-                true => vec![1, 0, 0, 0],
-                false => bytes,
-            });
+            let is_command = command(device, &index, entry);
+            let bytes = bytes(&index, entry).map(|bytes| if is_command { vec![1, 0, 0, 0] } else { bytes });
             lines.push(format!(
                 "entry {index} {} {:02X} {} {}",
                 entry["sub"],

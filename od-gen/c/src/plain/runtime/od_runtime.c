@@ -59,10 +59,11 @@ int64_t od_get_signed(const uint8_t *bytes, size_t size)
 
 void od_put_unsigned(uint8_t *bytes, size_t size, uint64_t value)
 {
+    uint64_t rest = value;
     size_t at;
     for (at = 0U; at < size; at++) {
-        bytes[at] = (uint8_t)(value & 0xFFU);
-        value >>= 8;
+        bytes[at] = (uint8_t)(rest & 0xFFU);
+        rest >>= 8;
     }
 }
 
@@ -145,13 +146,13 @@ od_wide_t od_wide_of(int64_t number)
 od_wide_t od_wide_add(od_wide_t left, od_wide_t right)
 {
     uint64_t low = left.low + right.low;
-    uint64_t carry = (low < left.low) ? 1U : 0U;
+    uint64_t carry = (low < left.low) ? (uint64_t)1U : (uint64_t)0U;
     return od_wide(left.high + right.high + carry, low);
 }
 
 od_wide_t od_wide_subtract(od_wide_t left, od_wide_t right)
 {
-    uint64_t borrow = (left.low < right.low) ? 1U : 0U;
+    uint64_t borrow = (left.low < right.low) ? (uint64_t)1U : (uint64_t)0U;
     return od_wide(left.high - right.high - borrow, left.low - right.low);
 }
 
@@ -169,7 +170,7 @@ od_wide_t od_wide_multiply(od_wide_t left, od_wide_t right)
     return od_wide(high, left.low * right.low);
 }
 
-int od_wide_compare(od_wide_t left, od_wide_t right)
+int32_t od_wide_compare(od_wide_t left, od_wide_t right)
 {
     /* With the sign turned, the order is that of unsigned numbers. */
     uint64_t one = left.high ^ 0x8000000000000000ULL;
@@ -286,9 +287,10 @@ static size_t scaled(uint32_t hash, uint16_t length)
 
 static unsigned int bits_in(uint32_t word)
 {
+    uint32_t rest = word;
     unsigned int count = 0U;
-    while (word != 0U) {
-        word &= word - 1U;
+    while (rest != 0U) {
+        rest &= rest - 1U;
         count++;
     }
     return count;
@@ -351,7 +353,7 @@ static uint32_t lookup(const od_table_t *table, uint16_t index, uint8_t sub, od_
     }
     first = table->objects[position];
     end = table->objects[position + 1U];
-    if ((uint32_t)first + sub < end) {
+    if (((uint32_t)first + sub) < end) {
         *found = found_at(table, (od_row_t)(first + sub));
         if ((found->shared->flags & OD_FLAG_SPARSE) == 0U) {
             return OD_OK;
@@ -399,7 +401,7 @@ bool od_id(const od_table_t *table, od_row_t row, uint16_t *index, uint8_t *sub)
     if (row >= table->entry_count) {
         return false;
     }
-    while ((position + 1U < table->object_count) && (table->objects[position + 1U] <= row)) {
+    while (((position + 1U) < table->object_count) && (table->objects[position + 1U] <= row)) {
         position++;
     }
     first = table->objects[position];
@@ -443,7 +445,7 @@ static size_t trimmed(uint8_t data_type, const uint8_t *bytes, size_t length)
             }
         }
     } else if (data_type == OD_TYPE_UNICODE_STRING) {
-        for (at = 0U; at + 1U < length; at += 2U) {
+        for (at = 0U; (at + 1U) < length; at += 2U) {
             if ((bytes[at] == 0U) && (bytes[at + 1U] == 0U)) {
                 return at;
             }
@@ -1032,6 +1034,8 @@ static uint32_t write_row(
     bool consistent)
 {
     uint8_t buffer[8];
+    const uint8_t *held = data;
+    size_t held_length = length;
     od_found_t holder = found;
     bool is_command = false;
     uint32_t code = check_lock(found.shared, application);
@@ -1046,14 +1050,14 @@ static uint32_t write_row(
     }
     if (found.shared->place == OD_PLACE_ALIAS) {
         code = table->views->held(table, found, data, length, &holder, buffer);
-        data = buffer;
-        length = holder.shared->size;
+        held = buffer;
+        held_length = holder.shared->size;
         if ((code == OD_OK) && (holder.shared->place != OD_PLACE_IMAGE)) {
             code = OD_ABORT_INTERNAL;
         }
     }
     if ((code == OD_OK) && (holder.row < table->first_application_row)) {
-        code = check_communication(table, image, holder.row, data, length, REPLACES_PRESENT, &is_command);
+        code = check_communication(table, image, holder.row, held, held_length, REPLACES_PRESENT, &is_command);
     }
     if (code == OD_OK) {
         code = check_condition(table, image, found.shared);
@@ -1061,14 +1065,14 @@ static uint32_t write_row(
     if ((code == OD_OK) && (holder.row != found.row)) {
         code = check_condition(table, image, holder.shared);
     }
-    if ((code == OD_OK) && consistent && !stays_consistent(table, image, holder, data, length)) {
+    if ((code == OD_OK) && consistent && !stays_consistent(table, image, holder, held, held_length)) {
         code = OD_ABORT_INCOMPATIBLE;
     }
     if ((code == OD_OK) && (application != NULL) && (application->accept != NULL)) {
-        code = application->accept(application->context, holder.row, data, length);
+        code = application->accept(application->context, holder.row, held, held_length);
     }
     if ((code == OD_OK) && !is_command) {
-        put(image, holder, data, length);
+        put(image, holder, held, held_length);
         if ((application != NULL) && (application->changed != NULL)) {
             application->changed(application->context, holder.row);
         }
@@ -1377,8 +1381,9 @@ static uint8_t mapping_of(
 static bool mapped_at(
     const od_table_t *table, const uint8_t *image, od_row_t mapping, uint32_t at, od_found_t *found, uint32_t *bits)
 {
+    const od_row_t row = (od_row_t)((at + mapping + 1U) & 0xFFFFU);
     uint32_t parameter;
-    if (!number_in(table, image, found_at(table, (od_row_t)(mapping + 1U + at)), &parameter)) {
+    if (!number_in(table, image, found_at(table, row), &parameter)) {
         return false;
     }
     *bits = parameter & 0xFFU;
@@ -1461,7 +1466,8 @@ uint8_t od_unpack(
         return result;
     }
     for (at = 0U; at < count; at++) {
-        if (!number_in(table, image, found_at(table, (od_row_t)(mapping + 1U + at)), &bits)) {
+        const od_row_t row = (od_row_t)((at + mapping + 1U) & 0xFFFFU);
+        if (!number_in(table, image, found_at(table, row), &bits)) {
             return OD_PDO_NOT_MAPPED;
         }
         sum += bits & 0xFFU;
@@ -1620,7 +1626,7 @@ static int64_t rounded(const od_alias_t *alias, int64_t target)
         up = false;
         break;
     }
-    return up ? floor + 1 : floor;
+    return up ? (floor + 1) : floor;
 }
 
 /** What an alias shows of a value of its target. */

@@ -700,7 +700,7 @@ od_wide_t od_wide_add(od_wide_t left, od_wide_t right);
 od_wide_t od_wide_subtract(od_wide_t left, od_wide_t right);
 od_wide_t od_wide_multiply(od_wide_t left, od_wide_t right);
 /** Negative where left < right, 0 where they are equal, positive where left > right. */
-int od_wide_compare(od_wide_t left, od_wide_t right);
+int32_t od_wide_compare(od_wide_t left, od_wide_t right);
 
 #ifdef __cplusplus
 }
