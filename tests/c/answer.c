@@ -98,7 +98,7 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
         break;
     case 'p':
         code = od_pack(&TABLE, image, index, frame, &frame_length, &application);
-        value.bytes = frame;
+        value.held = frame;
         value.length = frame_length;
         break;
     case 'n':
@@ -106,7 +106,7 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
         frame[0] = received.too_long ? 1U : 0U;
         od_put_u16(&frame[1], received.refused);
         od_put_u32(&frame[3], received.code);
-        value.bytes = frame;
+        value.held = frame;
         value.length = 7U;
         break;
     case 'f':
@@ -124,7 +124,7 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
     case 'k':
         if (od_id(&TABLE, index, &row, &frame[2])) {
             od_put_u16(frame, row);
-            value.bytes = frame;
+            value.held = frame;
             value.length = 3U;
         }
         break;
@@ -138,7 +138,7 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
         code = od_correct_stored(&TABLE, image, (uint8_t)index, sub, &row) ? ((uint32_t)row + 1U) : 0U;
         break;
     case 'i':
-        value.bytes = image;
+        value.held = image;
         value.length = TABLE.image_size;
         break;
     case 'b':
@@ -158,7 +158,7 @@ size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
         bytes[6U + at] = calls[at];
     }
     for (at = 0U; at < value.length; at++) {
-        bytes[6U + ((size_t)call_count * 3U) + at] = value.bytes[at];
+        bytes[6U + ((size_t)call_count * 3U) + at] = od_value_bytes(&value)[at];
     }
     return 6U + ((size_t)call_count * 3U) + value.length;
 }

@@ -69,6 +69,7 @@ fn examples(spec: &str, system: &System, sources: &SourceMap) -> Result<Vec<Exam
         ("docs/book/guides/ci.md", "diff", fenced("text", &changes(spec, system)?)),
         ("docs/book/guides/canopennode.md", "canopennode", fenced("c", &stack(system, sources)?)),
         ("docs/book/guides/c.md", "c", fenced("c", &written("valve.c")?)),
+        ("docs/book/guides/c.md", "c-sdo", fenced("c", &written("sdo_server.c")?)),
         ("docs/book/guides/c.md", "c-entry", fenced("c", &c_entry(system, &provenance)?)),
         ("docs/book/guides/writer.md", "docs", tables(system)?),
         ("docs/book/formats/dbc.md", "dbc", fenced("text", &frames(system))),
@@ -111,8 +112,13 @@ fn mistake(spec: &str) -> Result<String, Failure> {
 fn stack(system: &System, sources: &SourceMap) -> Result<String, Failure> {
     let mut diagnostics = Diagnostics::new();
     let provenance = Provenance::of(sources);
-    let set =
-        c::artifacts(system, system.devices.iter(), &provenance, &[c::Kind::CanopenNode], &mut diagnostics);
+    let set = c::artifacts(
+        system,
+        system.devices.iter(),
+        &provenance,
+        &c::Kind::CanopenNode.into(),
+        &mut diagnostics,
+    );
     let lines = |name: &str, begin: &str, end: &str| -> Result<String, Failure> {
         let file = set.iter().find(|file| file.path.ends_with(name)).ok_or_else(|| format!("no {name}"))?;
         let text = std::str::from_utf8(&file.bytes)?;
@@ -162,7 +168,8 @@ fn structured_text(system: &System) -> Result<String, Failure> {
 /// A unit, a special value and an entry of the example in plain C.
 fn c_entry(system: &System, provenance: &Provenance) -> Result<String, Failure> {
     let mut diagnostics = Diagnostics::new();
-    let set = c::artifacts(system, system.devices.iter(), provenance, &[c::Kind::Plain], &mut diagnostics);
+    let set =
+        c::artifacts(system, system.devices.iter(), provenance, &c::Kind::Plain.into(), &mut diagnostics);
     let part = |path: &str, start: &str| -> Result<String, Failure> {
         let file = set.iter().find(|artifact| artifact.path == path).ok_or("the example has no such file")?;
         let text = std::str::from_utf8(&file.bytes)?;

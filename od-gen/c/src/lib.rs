@@ -9,6 +9,7 @@ mod literal;
 mod names;
 mod page;
 mod plain;
+mod prefix;
 mod relations;
 mod text;
 mod types;
@@ -24,6 +25,7 @@ use od_spec::model::{Dictionary, EntryId, System};
 pub(crate) use self::language::C;
 use self::names::{Names, Register};
 use self::page::Page;
+pub use self::prefix::{NotAPrefix, Prefix};
 use self::text::{Text, header};
 
 /// For which firmware a dictionary is printed.
@@ -36,27 +38,42 @@ pub enum Kind {
     CanopenNode,
 }
 
+/// What is made of a device.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// For which firmware; of several kinds, each.
+    pub kinds: Vec<Kind>,
+    /// What begins the names of a dictionary for CANopenNode.
+    pub prefix: Prefix,
+}
+
+impl From<Kind> for Options {
+    fn from(kind: Kind) -> Self {
+        Self { kinds: vec![kind], ..Self::default() }
+    }
+}
+
 /// The C of some devices, of each kind; of none when anything is wrong. What cannot be code is reported, as for Rust. The files include those that
 /// [`shared`] gives.
 pub fn artifacts<'a>(
     system: &System,
     devices: impl Iterator<Item = &'a Dictionary>,
     provenance: &Provenance,
-    kinds: &[Kind],
+    options: &Options,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Artifact> {
-    if kinds.is_empty() {
+    if options.kinds.is_empty() {
         return Vec::new();
     }
     let before = diagnostics.errors_found();
     let mut register = Register::default();
     let mut set = Vec::new();
     for device in devices {
-        let device = decided(system, device, &C);
-        let plan = plan(system, &device, &C, diagnostics);
+        let decided = decided(system, device, &C);
+        let plan = plan(system, &decided, &C, diagnostics);
         // What follows from a plan that is not whole would be reported once more.
         if diagnostics.errors_found() == before {
-            set.extend(of_device(&plan, provenance, kinds, &mut register, diagnostics));
+            set.extend(of_device(&plan, device, provenance, options, &mut register, diagnostics));
         }
     }
     if diagnostics.errors_found() == before { set } else { Vec::new() }
@@ -86,8 +103,9 @@ pub fn shared(kinds: &[Kind]) -> Vec<Artifact> {
 
 fn of_device(
     plan: &Plan<'_>,
+    named: &Dictionary,
     provenance: &Provenance,
-    kinds: &[Kind],
+    options: &Options,
     register: &mut Register,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Artifact> {
@@ -104,7 +122,7 @@ fn of_device(
     let guard = names.macro_of(&["OD", "TYPES", "H"]);
     let text = header(&about("What the numbers in the object dictionary mean"), &guard, &page.finish());
     set.push(file(types::FILE, text, "enums, bits, scales and error codes for C"));
-    for kind in kinds {
+    for kind in &options.kinds {
         match kind {
             Kind::Plain => {
                 plain::header(&mut page);
@@ -116,9 +134,17 @@ fn of_device(
             }
             Kind::CanopenNode => {
                 let folder = format!("c/{}", names.device());
-                set.extend(canopennode::files(plan, &folder, &about, page.diagnostics));
+                set.extend(canopennode::files(
+                    plan,
+                    named,
+                    &folder,
+                    &options.prefix,
+                    &about,
+                    page.diagnostics,
+                ));
             }
         }
     }
+    page.register.report_alike(plan.device, page.diagnostics);
     set
 }

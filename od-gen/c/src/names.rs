@@ -54,10 +54,17 @@ impl Names {
     }
 }
 
+/// Characters of a name that every compiler distinguishes (C99 5.2.4.1).
+const DISTINGUISHED: usize = 63;
+
 /// All names that files of one set define, each once. What different files of a device say in the same way, an include
 /// guard for one, is reported apart by its kind.
 #[derive(Default)]
-pub(super) struct Register(BTreeMap<String, String>);
+pub(super) struct Register {
+    names: BTreeMap<String, String>,
+    /// Pairs that differ only beyond what every compiler distinguishes.
+    alike: Vec<(String, String)>,
+}
 
 impl Register {
     /// Enters a name that the files define for `what`; a name that is there already is an error.
@@ -68,7 +75,7 @@ impl Register {
         device: &Dictionary,
         diagnostics: &mut Diagnostics,
     ) {
-        if let Some(other) = self.0.get(name) {
+        if let Some(other) = self.names.get(name) {
             diagnostics.push(
                 Diagnostic::new(
                     codes::IDENTIFIER_CLASH,
@@ -82,7 +89,30 @@ impl Register {
             );
             return;
         }
-        self.0.insert(name.to_owned(), what.to_owned());
+        if let Some(beginning) = name.get(..DISTINGUISHED) {
+            let alike = self.names.range(beginning.to_owned()..).next().map(|(other, _)| other);
+            if let Some(other) = alike.filter(|other| other.starts_with(beginning)) {
+                self.alike.push((other.clone(), name.to_owned()));
+            }
+        }
+        self.names.insert(name.to_owned(), what.to_owned());
+    }
+
+    /// Reports the names of a device that not every compiler distinguishes, once for all.
+    pub(super) fn report_alike(&mut self, device: &Dictionary, diagnostics: &mut Diagnostics) {
+        let alike = std::mem::take(&mut self.alike);
+        let Some((first, second)) = alike.first() else { return };
+        let more = match alike.len() {
+            1 => String::new(),
+            count => format!("; {} more pairs", count - 1),
+        };
+        let message =
+            format!("`{first}` and `{second}` begin with the same {DISTINGUISHED} characters{more}");
+        diagnostics.push(
+            Diagnostic::new(codes::NAMES_ALIKE, device.span, message).help(
+                "give one of the entries a shorter `identifier:`, or a type, value or bit a shorter name",
+            ),
+        );
     }
 }
 

@@ -7,6 +7,8 @@ use std::fmt::Write as _;
 use od_spec::ascii::transliterate;
 use od_spec::eds::GENERATED;
 
+use super::prefix::Prefix;
+
 /// Characters of a line; what cannot be broken is longer.
 pub(super) const WIDTH: usize = 100;
 
@@ -16,28 +18,41 @@ const INDENT: usize = 4;
 /// A file that is being written.
 #[derive(Default)]
 pub(super) struct Text {
-    text: String,
+    written: String,
     level: usize,
+    /// What our names begin with in lines of code.
+    prefix: Prefix,
 }
 
 impl Text {
+    /// A file in which no name is made from one of the specification: what begins with `OD` begins with a prefix.
+    pub(super) fn with_prefix(prefix: &Prefix) -> Self {
+        Self { prefix: prefix.clone(), ..Self::default() }
+    }
+
     pub(super) fn into_bytes(self) -> Vec<u8> {
-        self.text.into_bytes()
+        self.written.into_bytes()
     }
 
     /// A line, or an empty one.
     pub(super) fn line(&mut self, line: &str) {
+        let line = self.prefix.in_text(line);
+        self.plain_line(&line);
+    }
+
+    /// A line as it is.
+    fn plain_line(&mut self, line: &str) {
         if !line.is_empty() {
             let indent = self.level * INDENT;
-            let _ = write!(self.text, "{:indent$}{line}", "");
+            let _ = write!(self.written, "{:indent$}{line}", "");
         }
-        self.text.push('\n');
+        self.written.push('\n');
     }
 
     /// An empty line, unless there is one or the file begins.
     pub(super) fn gap(&mut self) {
-        if !self.text.is_empty() && !self.text.ends_with("\n\n") {
-            self.text.push('\n');
+        if !self.written.is_empty() && !self.written.ends_with("\n\n") {
+            self.written.push('\n');
         }
     }
 
@@ -64,14 +79,14 @@ impl Text {
         let lines = comment_lines(text, WIDTH - self.level * INDENT - 3);
         match lines.as_slice() {
             [only] if open.len() + only.len() + 4 + self.level * INDENT <= WIDTH => {
-                self.line(&format!("{open} {only} */"));
+                self.plain_line(&format!("{open} {only} */"));
             }
             lines => {
-                self.line(open);
+                self.plain_line(open);
                 for line in lines {
-                    self.line(format!(" * {line}").trim_end());
+                    self.plain_line(format!(" * {line}").trim_end());
                 }
-                self.line(" */");
+                self.plain_line(" */");
             }
         }
     }
@@ -171,7 +186,7 @@ pub(super) fn header(about: &str, guard: &str, inside: &Text) -> Text {
     text.line(&format!("#ifndef {guard}"));
     text.line(&format!("#define {guard}"));
     text.gap();
-    text.text.push_str(&inside.text);
+    text.written.push_str(&inside.written);
     text.gap();
     text.line(&format!("#endif /* {guard} */"));
     text

@@ -304,6 +304,8 @@ codes! {
         "Generated code computes with 64-bit integers, addresses entries with 16-bit numbers and their values with 24 bits, and is about at least one object. The message names the part of the specification that needs more."
     STACK_REFUSES Error "OD0905" "a device that the stack does not take":
         "CANopenNode does not compile, does not start, or does not do what the dictionary says, without certain objects: 1000h, 1001h and 1017h, 1200h where there are more SDO servers, and a mapping parameter object for each communication parameter object of a PDO, beginning with PDO 1. It also starts only if the objects that it reads have the types of CiA 301. A dictionary without them would fail somewhere in the stack's own files; so none is made. Add the object, for example with `features:` of the library `cia301`."
+    NAMES_ALIKE Warning "OD0906" "names in C that begin alike":
+        "C99 lets a compiler distinguish only the first 63 characters of names and macros, and MISRA C:2012 (rules 5.2 and 5.4) wants names that differ in them. Common compilers compare whole names, so that the files compile there. Write a shorter `identifier:` at one of the two entries, or a shorter name of a type, value or bit; the key of the device begins every name, too."
     XDD_SYNTAX Error "XDD101" "a file is not well-formed XML":
         "The XML reader stopped at the marked place; nothing of the file was read. Frequent causes: an element that is not closed, `&` or `<` in a text where `&amp;` or `&lt;` belongs, a file that is cut off."
         [Example::xdd(
@@ -393,7 +395,7 @@ codes! {
 // The codes that backends, commands and tests name.
 pub use every::{
     ACCESS_FAILED, BAD_ASSIGNMENT, BAD_NODE_ID, BAD_NOTATION, BAD_TEMPLATE, BAD_TRACE_LINE, BAD_VALUE,
-    CONCISE_CUT_OFF, CONCISE_TOO_LONG, DEPARTURE, IDENTIFIER_CLASH, NO_CAPACITY, NO_CONNECTION,
+    CONCISE_CUT_OFF, CONCISE_TOO_LONG, DEPARTURE, IDENTIFIER_CLASH, NAMES_ALIKE, NO_CAPACITY, NO_CONNECTION,
     NO_IDENTIFIER, NO_TERMINAL, NOT_A_LIBRARY, NOT_A_PART, NOT_IN_FIRMWARE, NOT_UTF8, OTHER_BUS,
     OTHER_DEVICE, SET_TWICE, STACK_DIFFERS, STACK_REFUSES, TOO_LARGE, TURNED_TEXT, UNKNOWN_DEVICE,
     UNKNOWN_ENTRY, UNKNOWN_KEY, UNKNOWN_WORD, UNREADABLE, WRITE_FAILED, XDD_DISABLED, XDD_LEFT_OUT,

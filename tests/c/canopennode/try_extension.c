@@ -50,6 +50,15 @@ static uint16_t get_u16(uint16_t index, uint8_t sub) {
     return value;
 }
 
+static uint32_t get_u32(uint16_t index, uint8_t sub) {
+    OD_IO_t io;
+    OD_size_t count = 0U;
+    uint32_t value = 0U;
+    EXPECT(OD_getSub(OD_find(OD, index), sub, &io, false), ODR_OK);
+    EXPECT(io.read(&io.stream, &value, sizeof(value), &count), ODR_OK);
+    return value;
+}
+
 /* An extension of the application: counts, and refuses 77. */
 typedef struct {
     unsigned reads;
@@ -197,6 +206,30 @@ int main(void) {
     EXPECT(OD_ENTRY_H200B->extension == &own, 1);
     EXPECT(OD_extendBehind(NULL, &own), ODR_IDX_NOT_EXIST);
 
+    /* Each object that a TPDO can carry has flags of its own; the others share an extension. */
+    EXPECT(OD_ENTRY_H2001->extension == OD_ENTRY_H2002->extension, 1);
+    EXPECT(OD_ENTRY_H200E->extension != OD_ENTRY_H200F->extension, 1);
+    EXPECT(sizeof(OD_ENTRY_H200E->extension->flagsPDO), 6);
+    (void)memset(OD_ENTRY_H200E->extension->flagsPDO, 0xFF, OD_FLAGS_PDO_SIZE);
+    (void)memset(OD_ENTRY_H200F->extension->flagsPDO, 0xFF, OD_FLAGS_PDO_SIZE);
+    OD_requestTPDO(OD_ENTRY_H200E, 0U);
+    EXPECT(OD_ENTRY_H200E->extension->flagsPDO[0], 0xFE);
+    EXPECT(OD_ENTRY_H200F->extension->flagsPDO[0], 0xFF);
+    (void)memset(OD_ENTRY_H2010->extension->flagsPDO, 0xFF, OD_FLAGS_PDO_SIZE);
+    OD_requestTPDO(OD_ENTRY_H2010, 40U);
+    EXPECT(OD_ENTRY_H2010->extension->flagsPDO[5], 0xFE);
+    /* With rules or without, they read and write as before. */
+    OD_RAM.x200E_measured = 12U;
+    EXPECT(get_u16(0x200EU, 0U), 12);
+    EXPECT(set_u16(0x200FU, 0U, 10U), ODR_VALUE_HIGH);
+    EXPECT(set_u16(0x200FU, 0U, 9U), ODR_OK);
+    counts.reads = 0U;
+    EXPECT(OD_extendBehind(OD_ENTRY_H200F, &own), ODR_OK);
+    EXPECT(OD_ENTRY_H200F->extension != &own, 1);
+    EXPECT(get_u16(0x200FU, 0U), 9);
+    EXPECT(counts.reads, 1);
+    EXPECT(set_u16(0x200FU, 0U, 10U), ODR_VALUE_HIGH);
+
     /* The original is written without any question. */
     EXPECT(OD_getSub(OD_find(OD, 0x2000U), 0U, &io, true), ODR_OK);
     word = 60000U;
@@ -217,11 +250,14 @@ int main(void) {
     EXPECT(OD_addNodeId(7U), ODR_OK);
     EXPECT(OD_RAM.x200A_identifier, 0x123);
 
-    /* Storage: what 1010h.2 and .3 store. */
-    EXPECT(sizeof(storage) / sizeof(storage[0]), 2);
-    EXPECT((storage[0].addr == &OD_PERSIST_APP) && (storage[0].len == sizeof(OD_PERSIST_APP)), 1);
-    EXPECT((storage[0].subIndexOD == 3U) && (storage[0].attr == 5U), 1);
-    EXPECT((storage[1].addr == &OD_PERSIST_AUTO) && (storage[1].attr == 2U), 1);
+    /* Storage: what 1010h.2 and .3 store; nothing is behind 1010h.4. */
+    EXPECT(sizeof(storage) / sizeof(storage[0]), 3);
+    EXPECT((storage[0].addr == &OD_PERSIST_COMM) && (storage[0].subIndexOD == 2U) && (storage[0].attr == 5U), 1);
+    EXPECT((storage[1].addr == &OD_PERSIST_APP) && (storage[1].len == sizeof(OD_PERSIST_APP)), 1);
+    EXPECT((storage[1].subIndexOD == 3U) && (storage[1].attr == 5U), 1);
+    EXPECT((storage[2].addr == &OD_PERSIST_AUTO) && (storage[2].attr == 2U), 1);
+    EXPECT((get_u32(0x1010U, 1U) == 1U) && (get_u32(0x1010U, 2U) == 1U) && (get_u32(0x1010U, 3U) == 1U), 1);
+    EXPECT((get_u32(0x1010U, 4U) == 0U) && (get_u32(0x1011U, 3U) == 1U), 1);
     EXPECT(strcmp(with_file[0].filename, "app"), 0);
     EXPECT((OD_PERSIST_APP.x200C_kept.first == 1) && (OD_RAM.x200C_kept.second == 2), 1);
 

@@ -23,7 +23,7 @@ const BOARD: [&str; 9] = [
 /// How long it may take.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Compiles firmware that asks the dictionary of a device whose C lies below a directory, and runs it; what it prints.
+/// Compiles firmware of which some sources answer, and which asks the dictionary of a device whose C lies below a directory, and runs it; what it prints.
 ///
 /// # Errors
 /// A tool does not run, or has something to say; an answer is another one; or the firmware does not end.
@@ -32,14 +32,16 @@ pub fn emulate(
     linker: &[String],
     directory: &Path,
     device: &str,
+    answering: &[&str],
     exchange: &[Exchange],
 ) -> Result<String, Failure> {
     let tests = root().join("tests/c");
     let data = directory.join(format!("{device}.exchange"));
     fs::write(&data, bytes(exchange))?;
     let mut objects = compiler.objects(directory, device)?;
-    objects.push(compiler.object(&tests.join("answer.c"), directory, device, &Compiler::about(device))?);
-    objects.push(compiler.object(&tests.join("firmware.c"), directory, device, &[])?);
+    for source in answering.iter().chain(&["tests/c/firmware.c"]) {
+        objects.push(compiler.object(&root().join(source), directory, device, &Compiler::about(device))?);
+    }
     let place = format!("-DEXCHANGE=\"{}\"", data.display());
     objects.push(compiler.object(&tests.join("exchange.S"), directory, device, &[place])?);
     let program = directory.join(format!("{device}.elf"));

@@ -20,15 +20,28 @@ impl Host {
     /// # Errors
     /// The compiler does not run, or has something to say.
     pub fn build(compiler: &Compiler, directory: &Path, device: &str) -> Result<Self, Failure> {
-        let tests = root().join("tests/c");
+        Self::build_with(compiler, directory, device, &super::DICTIONARY)
+    }
+
+    /// The same, with other sources that answer.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub fn build_with(
+        compiler: &Compiler,
+        directory: &Path,
+        device: &str,
+        answering: &[&str],
+    ) -> Result<Self, Failure> {
         let mut objects = compiler.objects(directory, device)?;
-        objects.push(compiler.object(
-            &tests.join("answer.c"),
-            directory,
-            device,
-            &Compiler::about(device),
-        )?);
-        objects.push(compiler.object(&tests.join("host.c"), directory, device, &[])?);
+        for source in answering.iter().chain(&["tests/c/host.c"]) {
+            objects.push(compiler.object(
+                &root().join(source),
+                directory,
+                device,
+                &Compiler::about(device),
+            )?);
+        }
         let program = directory.join(format!("{device}-{}", compiler.program));
         compiler.link(&objects, &program)?;
         Ok(Self { program })

@@ -4,6 +4,7 @@ mod compilers;
 mod emulated;
 mod host;
 mod protocol;
+mod sdo;
 mod trial;
 
 use std::fs;
@@ -20,7 +21,14 @@ use od_spec::{Compiled, compile};
 pub use self::compilers::{Compiler, LANGUAGE, WARNINGS, compile_header};
 pub use self::emulated::emulate;
 pub use self::host::{Host, compare};
+
+/// Sources of the SDO server of the book, which answer frames.
+pub const SDO_SERVER: [&str; 2] = ["tests/c/sdo_answer.c", "tests/book/sdo_server.c"];
+/// Sources of the dictionary, which answer requests to it.
+pub const DICTIONARY: [&str; 1] = ["tests/c/answer.c"];
+
 pub use self::protocol::{Consistency, Recorder, Reference};
+pub use self::sdo::SdoTrial;
 pub use self::trial::{Exchange, Trial};
 use crate::{Failure, OfWorkspace, root};
 
@@ -54,8 +62,13 @@ pub fn write_text(path: &str, text: String, directory: &Path) -> Result<Written,
         return Err(render(&diagnostics, &sources, Format::Human, false).into());
     };
     let mut found = Diagnostics::new();
-    let set =
-        c::artifacts(&system, system.devices.iter(), &Provenance::of(&sources), &[Kind::Plain], &mut found);
+    let set = c::artifacts(
+        &system,
+        system.devices.iter(),
+        &Provenance::of(&sources),
+        &Kind::Plain.into(),
+        &mut found,
+    );
     if found.has_errors() {
         return Err(render(&found, &sources, Format::Human, false).into());
     }

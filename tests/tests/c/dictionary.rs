@@ -9,7 +9,9 @@ use firmware_glue::Dictionary;
 use od_bus::runtime::{self, LiveDictionary};
 use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
 use od_spec::diag::Diagnostics;
-use od_tests::c_dictionary::{Compiler, Host, Reference, Trial, Written, compare, write, write_text};
+use od_tests::c_dictionary::{
+    Compiler, Host, Reference, SDO_SERVER, SdoTrial, Trial, Written, compare, write, write_text,
+};
 
 #[allow(
     clippy::all,
@@ -106,6 +108,20 @@ fn limits_of_all_types_answer_as_their_rust() {
 #[test]
 fn scales_of_all_kinds_answer_as_their_rust() {
     try_device("tests/readers/scales.od.yaml", "scales", Reference::plain(scales::Scales::new(5)));
+}
+
+#[test]
+fn the_sdo_server_of_the_book_answers_as_that_in_rust() {
+    let directory = directory("sdo");
+    let Written { system, devices } = write("tests/c/valve.od.yaml", &directory).unwrap();
+    let live = runtime::device(&system, &system.devices[0], &mut Diagnostics::new()).unwrap();
+    let lists = live.lists();
+    let table = lists.table().unwrap();
+    let dictionary = LiveDictionary::new(&live, &table, 5).unwrap();
+    let exchange = SdoTrial::new(dictionary, 5).unwrap().exchange();
+    assert!(exchange.len() > 500, "{} frames", exchange.len());
+    let host = Host::build_with(&cc(), &directory, &devices[0], &SDO_SERVER).unwrap();
+    compare(&exchange, &host.ask(&exchange).unwrap()).unwrap();
 }
 
 #[test]

@@ -369,6 +369,57 @@ fn functions_read_and_write_what_the_table_says() {
     assert!(count > 800, "{count} functions only");
 }
 
+/// A program that fills frames with random bytes, takes them apart and puts them together again; and compares what a TPDO of the dictionary carries with
+/// its entries.
+fn frames(key: &str, header: &str) -> (String, usize) {
+    let (mut text, mut count) = (String::new(), 0);
+    let begin = "typedef struct {\n    /** ";
+    for structure in header.split(begin).skip(1) {
+        let Some((fields, rest)) = structure.split_once("\n} ") else { continue };
+        let name = rest.split("_t;").next().unwrap();
+        let Some(pdo) = name.strip_prefix(&format!("{key}_")) else { continue };
+        let Some((direction, number)) = pdo.split_once("pdo_") else { continue };
+        count += 1;
+        let _ = writeln!(text, "FRAME({name}, {}_LENGTH)", name.to_uppercase());
+        if direction == "t" {
+            let fields = fields.lines().filter_map(|line| line.trim().strip_suffix(';')?.rsplit_once(' '));
+            for (of, field) in fields {
+                let is_read = header.contains(&format!(" {key}_get_{field}(const {key}_od_t *od)"));
+                if is_read && of != "od_time_t" {
+                    let _ = writeln!(text, "CARRIED({name}, {number}U, {field}, {key}_get_{field})");
+                }
+            }
+        }
+    }
+    (text, count)
+}
+
+#[test]
+fn structures_of_pdos_are_what_frames_carry() {
+    let (mut count, mut carried) = (0, 0);
+    for path in SPECIFICATIONS {
+        let directory = directory(&format!("{}_FRAMES", upper(path)));
+        for key in write(path, &directory).unwrap().devices {
+            let header = directory.join("c").join(&key).join(format!("{key}_od.h"));
+            let (text, frames) = frames(&key, &std::fs::read_to_string(header).unwrap());
+            carried += text.matches("CARRIED").count();
+            std::fs::write(directory.join("c").join(&key).join("frames.inc"), text).unwrap();
+            let cc = Compiler::new("cc", &[]);
+            let source = od_tests::root().join("tests/c/frames.c");
+            let mut objects = cc.objects(&directory, &key).unwrap();
+            let mut about = Compiler::about(&key).to_vec();
+            about.push(format!("-DDICTIONARY={key}_od_t"));
+            objects.push(cc.object(&source, &directory, &key, &about).unwrap());
+            let program = directory.join(&key);
+            cc.link(&objects, &program).unwrap();
+            let output = Command::new(&program).output().unwrap();
+            assert!(output.status.success(), "{key}: {}", String::from_utf8_lossy(&output.stdout));
+            count += frames;
+        }
+    }
+    assert!(count > 20 && carried > 10, "{count} PDOs, {carried} fields");
+}
+
 /// Names of the runtime, which all dictionaries include, begin as those of a device `od` would.
 #[test]
 fn a_device_may_be_called_as_the_runtime_begins() {

@@ -30,7 +30,7 @@ fn names_to_copy_are_in_generated_code() {
                 &system,
                 [device].into_iter(),
                 &provenance,
-                &[od_c::Kind::Plain],
+                &od_c::Kind::Plain.into(),
                 &mut diagnostics,
             ));
             let st = text(&od_st::write(&system, device, None, None).artifacts);

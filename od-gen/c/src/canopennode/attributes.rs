@@ -1,8 +1,9 @@
 //! Attributes of an entry, as the stack's SDO server and PDOs ask for them.
 
-use od_spec::model::{Direction, Entry, Family, Object};
+use od_spec::model::{Direction, Entry, EntryId, Family, Object};
 
 use super::cell::Cell;
+use super::srdos::Srdos;
 
 /// The bits, in the order of the stack's names.
 const READ: u8 = 0x01;
@@ -20,9 +21,11 @@ pub(super) struct Attributes(u8);
 
 impl Attributes {
     /// Of an entry. A locked entry can be written: the lock is kept where values are checked.
-    pub(super) fn of(object: &Object, entry: &Entry) -> Self {
-        let srdos = object.editor.as_ref().and_then(|notes| notes.srdos.get(&entry.sub));
-        let in_srdos = |direction| srdos.is_some_and(|mapping| mapping.allows(direction));
+    pub(super) fn of(object: &Object, entry: &Entry, srdos: &Srdos) -> Self {
+        let noted = object.editor.as_ref().and_then(|notes| notes.srdos.get(&entry.sub));
+        let id = EntryId { index: object.index, sub: entry.sub };
+        let in_srdos =
+            |direction| noted.is_some_and(|mapping| mapping.allows(direction)) || srdos.carry(id, direction);
         let mut bits = 0;
         let mut set = |bit: u8, is_set: bool| bits |= if is_set { bit } else { 0 };
         set(READ, entry.access.is_readable());

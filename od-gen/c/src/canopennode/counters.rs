@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
+use super::super::prefix::Prefix;
 use super::objects::StackObject;
 
 /// A name of the stack, and the indices of the objects that it counts.
@@ -114,7 +115,7 @@ pub(super) const SETTINGS: [Setting; 40] = {
 
 impl Setting {
     /// The member and its value: `("CNT_NMT", "OD_CNT_NMT")`. Every device answers SDOs, also without 1200h.
-    pub(super) fn assignment(&self, objects: &[StackObject<'_>]) -> (String, String) {
+    pub(super) fn assignment(&self, prefix: &Prefix, objects: &[StackObject<'_>]) -> (String, String) {
         let object = |index: u16| objects.iter().find(|object| object.object.index.0 == index);
         let (member, is_there, absent) = match self {
             Self::Counter(name) => {
@@ -129,7 +130,7 @@ impl Setting {
             }
             Self::Entry(index) => (format!("ENTRY_H{index:04X}"), object(*index).is_some(), "NULL"),
         };
-        let value = if is_there { format!("OD_{member}") } else { absent.to_owned() };
+        let value = if is_there { format!("{prefix}_{member}") } else { absent.to_owned() };
         (member, value)
     }
 }

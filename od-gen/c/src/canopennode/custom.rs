@@ -1,10 +1,13 @@
 //! `CO_driver_custom.h`: what the stack is compiled with for this dictionary, each setting with its reason. The stack includes the file where
 //! `CO_DRIVER_CUSTOM` is defined. A project that sets one of these itself keeps its setting, unless the stack would not start with it, or a rule of
-//! the dictionary would not be kept.
+//! the dictionary would not be kept. Several dictionaries of one program share the settings of the stack: the file of each then checks them for all that it
+//! needs, whoever made them.
 
-use od_spec::model::{Dictionary, Direction, Index};
+use od_spec::model::{Dictionary, Direction, EntryId, Index};
 
+use super::super::prefix::Prefix;
 use super::super::text::Text;
+use super::rules::Rules;
 
 /// Flags that each service takes from the settings for all services.
 const CALLBACK: &str = "CO_CONFIG_GLOBAL_FLAG_CALLBACK_PRE";
@@ -40,6 +43,19 @@ impl Setting {
         self
     }
 
+    /// Needs every flag of its own: another dictionary may have made the setting.
+    fn shared(mut self) -> Self {
+        let common = [CALLBACK, FAST_CALLBACK, TIMER, DYNAMIC];
+        for flag in self.flags.clone() {
+            let is_named = common.contains(&flag) || self.needed.iter().any(|(needed, _)| *needed == flag);
+            if !is_named {
+                self =
+                    self.needed(flag, "set by another dictionary or the project without what this one needs");
+            }
+        }
+        self
+    }
+
     fn print(&self, text: &mut Text) {
         let Self { name, because, flags, needed, refused } = self;
         text.gap();
@@ -63,31 +79,58 @@ impl Setting {
 
 /// Which objects a device has.
 #[derive(Clone, Copy)]
-struct Has<'a>(&'a Dictionary);
+struct Has<'a> {
+    device: &'a Dictionary,
+    program: Program,
+}
+
+/// What a program has of dictionaries.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Program {
+    /// This one.
+    One,
+    /// Several, of which some have what others lack: the stack then finds objects when it starts, and not when it is compiled.
+    Several,
+}
 
 impl Has<'_> {
     fn object(self, index: u16) -> bool {
-        self.0.objects.contains_key(&Index(index))
+        self.device.objects.contains_key(&Index(index))
     }
 
     /// Whether an SDO client can write an object of one value.
     fn writable(self, index: u16) -> bool {
-        let object = self.0.objects.get(&Index(index));
+        let object = self.device.objects.get(&Index(index));
         object.and_then(|object| object.entries.first()).is_some_and(|entry| entry.access.is_writable())
+    }
+
+    /// What the stack does with a service whose object is missing.
+    const fn failure(self, one: &'static str, several: &'static str) -> &'static str {
+        match self.program {
+            Program::One => one,
+            Program::Several => several,
+        }
     }
 
     fn pdos(self, direction: Direction) -> bool {
         let first = direction.first_communication_index();
-        self.0.objects.range(Index(first)..Index(first + 0x200)).next().is_some()
+        self.device.objects.range(Index(first)..Index(first + 0x200)).next().is_some()
     }
 }
 
 /// What is between the lines that keep the file from being read twice.
-pub(super) fn print(text: &mut Text, device: &Dictionary) {
-    let has = Has(device);
-    text.comment(
-        "Compile the stack with `-DCO_DRIVER_CUSTOM` and this file in the include path. What is not here is as the stack has it by default.",
-    );
+pub(super) fn print(text: &mut Text, device: &Dictionary, prefix: &Prefix, rules: &Rules<'_, '_>) {
+    let program = if prefix.is_usual() { Program::One } else { Program::Several };
+    let has = Has { device, program };
+    text.comment(match program {
+        Program::One => {
+            "Compile the stack with `-DCO_DRIVER_CUSTOM` and this file in the include path. What is not here is as the stack has it by default."
+        }
+        Program::Several => {
+            "Compile the stack with `-DCO_DRIVER_CUSTOM -DCO_MULTIPLE_OD` and a `CO_driver_custom.h` of the project in the include path, which includes \
+             this file of each dictionary. The first one makes a setting, and each checks it. What is not here is as the stack has it by default."
+        }
+    });
     text.gap();
     text.comment("Flags that each service takes: as the stack has them, unless the project sets them.");
     for (flag, value) in
@@ -97,22 +140,35 @@ pub(super) fn print(text: &mut Text, device: &Dictionary) {
         text.define(flag, value);
         text.line("#endif");
     }
-    heartbeats(has).print(text);
-    guarding(has).print(text);
-    emergencies(has).print(text);
-    for setting in clients(has) {
-        setting.print(text);
+    if let Some((id, size)) = flags(rules) {
+        text.gap();
+        text.comment(&format!("As many flags in an extension as {id} needs, which a TPDO can carry."));
+        text.line("#ifndef OD_FLAGS_PDO_SIZE");
+        text.define("OD_FLAGS_PDO_SIZE", &format!("{size}U"));
+        text.line("#endif");
     }
-    time(has).print(text);
-    if has.object(0x1005) && !has.object(0x1006) {
+    let mut settings = vec![heartbeats(has), guarding(has), emergencies(has)];
+    settings.extend(clients(has));
+    settings.extend([time(has), sync(has), pdos(has)]);
+    if program == Program::One && has.object(0x1005) && !has.object(0x1006) {
         text.gap();
         text.comment("The stack names 1006h also for a device that only receives SYNC.");
         text.line("#ifndef OD_ENTRY_H1006");
         text.define("OD_ENTRY_H1006", "NULL");
         text.line("#endif");
     }
-    sync(has).print(text);
-    pdos(has).print(text);
+    for setting in settings {
+        let setting = if program == Program::Several { setting.shared() } else { setting };
+        setting.print(text);
+    }
+}
+
+/// The entry with the highest sub-index that a TPDO can carry, and the bytes of flags that it needs, where the stack has fewer by default.
+fn flags(rules: &Rules<'_, '_>) -> Option<(EntryId, u8)> {
+    const USUAL: u8 = 4;
+    let highest = rules.transmitted.iter().max_by_key(|id| id.sub)?;
+    let size = highest.sub.0 / 8 + 1;
+    (size > USUAL).then_some((*highest, size))
 }
 
 fn heartbeats(has: Has<'_>) -> Setting {
@@ -120,8 +176,11 @@ fn heartbeats(has: Has<'_>) -> Setting {
     if has.object(0x1016) {
         Setting::new("HB_CONS", "Watches the heartbeats of 1016h.", &[CONSUMER, CALLBACK, TIMER, DYNAMIC])
     } else {
-        Setting::new("HB_CONS", "Watches no heartbeats: there is no 1016h.", &[])
-            .refused(CONSUMER, "there is no 1016h, and the stack does not compile")
+        let setting = Setting::new("HB_CONS", "Watches no heartbeats: there is no 1016h.", &[]);
+        match has.program {
+            Program::One => setting.refused(CONSUMER, "there is no 1016h, and the stack does not compile"),
+            Program::Several => setting,
+        }
     }
 }
 
@@ -131,8 +190,13 @@ fn guarding(has: Has<'_>) -> Setting {
         Setting::new("NODE_GUARDING", "Answers node guarding, as 100Ch and 100Dh say.", &[SLAVE])
             .needed(SLAVE, "writing 100Ch or 100Dh would do nothing")
     } else {
-        Setting::new("NODE_GUARDING", "No node guarding: 100Ch or 100Dh is missing.", &[])
-            .refused(SLAVE, "100Ch or 100Dh is missing, and the stack does not compile")
+        Setting::new("NODE_GUARDING", "No node guarding: 100Ch or 100Dh is missing.", &[]).refused(
+            SLAVE,
+            has.failure(
+                "100Ch or 100Dh is missing, and the stack does not compile",
+                "100Ch or 100Dh is missing, and the stack does not start",
+            ),
+        )
     }
 }
 
@@ -170,7 +234,13 @@ fn emergencies(has: Has<'_>) -> Setting {
     let setting = if is_producer {
         setting.needed(COB_ID, "the stack would not use the COB-ID of 1014h")
     } else {
-        setting.refused(PRODUCER, "there is no 1014h, and the stack does not compile")
+        setting.refused(
+            PRODUCER,
+            has.failure(
+                "there is no 1014h, and the stack does not compile",
+                "there is no 1014h, and the stack does not start",
+            ),
+        )
     };
     if has_history {
         setting
@@ -235,7 +305,7 @@ fn pdos(has: Has<'_>) -> Setting {
     if !receives && !transmits {
         return Setting::new("PDO", "No PDOs.", &[]);
     }
-    let is_in_bits = has.0.pdos.iter().flat_map(|pdo| &pdo.map).any(|mapped| mapped.bits % 8 != 0);
+    let is_in_bits = has.device.pdos.iter().flat_map(|pdo| &pdo.map).any(|mapped| mapped.bits % 8 != 0);
     let flags = [
         (receives, "CO_CONFIG_RPDO_ENABLE"),
         (transmits, "CO_CONFIG_TPDO_ENABLE"),

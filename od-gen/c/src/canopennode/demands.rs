@@ -7,8 +7,11 @@ use od_spec::model::{
 };
 use od_spec::source::Span;
 
+use super::cell::Cell;
+use super::groups::is_behind;
 use super::node_id;
-use super::objects::StackObject;
+use super::objects::{StackObject, groups_of};
+use super::srdos::Srdos;
 
 /// Mapped entries that the stack knows in a PDO.
 const MOST_MAPPED: usize = 8;
@@ -16,15 +19,23 @@ const MOST_MAPPED: usize = 8;
 const MOST_CONSUMERS: usize = 127;
 
 /// Reports everything that the stack could not handle.
-pub(super) fn check(device: &Dictionary, objects: &[StackObject<'_>], diagnostics: &mut Diagnostics) {
+pub(super) fn check(
+    device: &Dictionary,
+    objects: &[StackObject<'_>],
+    srdos: &Srdos,
+    diagnostics: &mut Diagnostics,
+) {
     let mut findings = Findings { device, diagnostics };
     findings.needed();
-    findings.configured();
+    findings.configured(srdos);
     findings.consumers(objects);
+    let mut kinds = Kinds::default();
     for direction in [Direction::Receive, Direction::Transmit] {
-        findings.pdos(direction);
+        findings.pdos(direction, &mut kinds);
     }
+    findings.kinds(&kinds);
     findings.mappings();
+    findings.storage(objects);
     findings.identifiers();
     findings.octets(objects);
     findings.types();
@@ -66,6 +77,13 @@ pub(super) fn left_to_stack(device: &Dictionary, entries: &[EntryId], diagnostic
     );
 }
 
+/// What is the same for PDOs of both directions, each with its place.
+#[derive(Default)]
+struct Kinds {
+    gaps: Vec<(Span, String)>,
+    lacking: Vec<(Span, String)>,
+}
+
 struct Findings<'f, 'd> {
     device: &'d Dictionary,
     diagnostics: &'f mut Diagnostics,
@@ -105,7 +123,7 @@ impl Findings<'_, '_> {
     }
 
     /// Objects that belong to others, or to something outside of the dictionary.
-    fn configured(&mut self) {
+    fn configured(&mut self, srdos: &Srdos) {
         if !self.has(0x1018) {
             let message = format!(
                 "`{}` has no 1018h (identity object), and CANopenNode's example reads the identity for LSS",
@@ -141,18 +159,20 @@ impl Findings<'_, '_> {
             let help = "add 1200h, the first SDO server; in a specification, the library `cia301` has it";
             self.report(codes::STACK_REFUSES, object.span, message, help);
         }
-        if let Some(object) =
-            self.device.objects.range(Index(0x1301)..=Index(0x1340)).map(|(_, object)| object).next()
+        let is_noted = |object: &Object| object.editor.as_ref().is_some_and(|notes| !notes.srdos.is_empty());
+        if srdos.are_empty()
+            && !self.device.objects.values().any(is_noted)
+            && let Some((_, object)) = self.device.objects.range(Index(0x1301)..=Index(0x1340)).next()
         {
             let message = format!(
-                "`{}` has SRDOs ({}), and no entry gets the attributes by which CANopenNode maps it into one",
+                "`{}` has SRDOs ({}) that map nothing, and CANopenNode maps no entry into one that is not marked for it",
                 self.device.key, object.index
             );
             self.report(
                 codes::STACK_DIFFERS,
                 object.span,
                 message,
-                "add `ODA_TSRDO` or `ODA_RSRDO` by hand to the entries of OD.c that may be mapped, or leave SRDOs to another stack",
+                "give 1381h and the following a mapping and 1301h.1 a direction, or mark entries: `canopennode: {0x2000: {srdo: {0: transmit}}}`",
             );
         }
     }
@@ -173,7 +193,7 @@ impl Findings<'_, '_> {
 
     /// The stack goes from the first parameter object of a direction to the next one in the list, and from the first mapping parameter object in step
     /// with it.
-    fn pdos(&mut self, direction: Direction) {
+    fn pdos(&mut self, direction: Direction, kinds: &mut Kinds) {
         let first = direction.first_communication_index();
         let span = |index: u16, device: &Dictionary| {
             device.objects.get(&Index(index)).map_or(device.span, |object| object.span)
@@ -219,24 +239,24 @@ impl Findings<'_, '_> {
                 format!("add {0} 1, which may be switched off", direction.pdo()),
             );
         } else if are_whole && usize::from(*highest) >= numbers.len() {
-            let message = format!(
-                "the {}s of `{}` are not numbered without a gap, and CANopenNode counts them by their place: number {} is at place {}",
-                direction.pdo(),
-                self.device.key,
-                highest + 1,
-                numbers.len()
-            );
-            let help = "do nothing, unless the application calls PDOs by number: the stack's numbers are places in the list";
-            let span = span(first + highest, self.device);
-            self.report(codes::STACK_DIFFERS, span, message, help);
+            let text = format!("{} number {} is at place {}", direction.pdo(), highest + 1, numbers.len());
+            kinds.gaps.push((span(first + highest, self.device), text));
         }
         let objects = numbers.iter().filter_map(|place| self.device.objects.get(&Index(first + place)));
         let lacks = |(object, sub): &(&Object, u8)| object.entry(SubIndex(*sub)).is_none();
         let lacking = objects.flat_map(|object| [(object, 1), (object, 2)]).filter(lacks);
-        let lacking: Vec<_> =
-            lacking.map(|(object, sub)| (object.span, format!("{}.{sub}", object.index))).collect();
+        kinds.lacking.extend(lacking.map(|(object, sub)| (object.span, format!("{}.{sub}", object.index))));
+    }
+
+    /// Reports each kind once.
+    fn kinds(&mut self, kinds: &Kinds) {
         self.report_all(
-            &lacking,
+            &kinds.gaps,
+            |names| format!("the numbers of PDOs have a gap, and CANopenNode counts them by their place: {names}"),
+            "do nothing, unless the application calls PDOs by number: the stack's numbers are places in the list",
+        );
+        self.report_all(
+            &kinds.lacking,
             |names| format!("{names}: missing, and CANopenNode does not start without it"),
             "add the sub-index",
         );
@@ -271,6 +291,24 @@ impl Findings<'_, '_> {
         );
     }
 
+    /// Commands of 1010h and 1011h that are about no value.
+    fn storage(&mut self, objects: &[StackObject<'_>]) {
+        let groups = groups_of(objects);
+        let device = self.device;
+        let empty: Vec<_> = device
+            .entries()
+            .filter(|(id, ..)| is_behind(device, &groups, *id) == Some(false))
+            .map(|(id, _, entry)| (entry.span, format!("{id} ({})", entry.name)))
+            .collect();
+        self.report_all(
+            &empty,
+            |names| {
+                format!("{names}: no value is stored by it, and CANopenNode refuses the command (0609 0011h)")
+            },
+            "say which entries are `stored:` by it, or remove the sub-index",
+        );
+    }
+
     /// Why the stack refuses the mapping of a PDO.
     fn refusal(&self, pdo: &Pdo) -> Option<String> {
         if pdo.map.len() > MOST_MAPPED {
@@ -283,7 +321,12 @@ impl Findings<'_, '_> {
         pdo.map.iter().find_map(|mapped| {
             let PdoTarget::Entry(id) = mapped.target else { return None };
             let Some(entry) = self.device.entry(id) else { return Some(format!("{id} is not there")) };
-            (!entry.pdo.allows(pdo.direction)).then(|| format!("{id} may not be mapped in this direction"))
+            if !entry.pdo.allows(pdo.direction) {
+                return Some(format!("{id} may not be mapped in this direction"));
+            }
+            let length = 8 * Cell::of(entry).map_or(0, Cell::length);
+            (length < u32::from(mapped.bits))
+                .then(|| format!("{id} has {length} bits, and {} are mapped", mapped.bits))
         })
     }
 

@@ -1,6 +1,6 @@
 //! Storage groups: what the stack stores and restores in one piece is one variable.
 
-use od_spec::model::{Author, Dictionary, Entry, Fact, Index, Object, Storage, SubIndex};
+use od_spec::model::{Author, Dictionary, Entry, EntryId, Fact, Index, Object, Storage, SubIndex};
 
 /// Values that lie in one variable, because one command stores them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,6 +71,20 @@ impl<'a> Group<'a> {
             Storage::No => None,
         }
     }
+}
+
+/// Whether a command of 1010h or 1011h, by its sub-index, is about groups of a device; `None` for what is no command.
+pub(super) fn is_behind(device: &Dictionary, groups: &[Group<'_>], command: EntryId) -> Option<bool> {
+    let flag = match command.index.0 {
+        0x1010 => COMMAND,
+        0x1011 => RESTORE,
+        _ => return None,
+    };
+    let sub = command.sub.0;
+    let stored = || groups.iter().filter_map(|group| group.stored(device));
+    // The stack takes sub-index 1 for all groups.
+    let is_about = |group: GroupStorage| group.attributes & flag != 0 && (sub == 1 || group.sub == sub);
+    (sub > 0).then(|| stored().any(is_about))
 }
 
 /// Stored by a command, 1010h.

@@ -6,6 +6,7 @@ use super::attributes::Attributes;
 use super::cell::Cell;
 use super::groups::Group;
 use super::names;
+use super::srdos::Srdos;
 
 /// An object and its values.
 pub(super) struct StackObject<'a> {
@@ -32,6 +33,8 @@ pub(super) struct Slot<'a> {
     pub id: EntryId,
     pub entry: &'a Entry,
     pub attributes: Attributes,
+    /// Its name among the entries of a RECORD.
+    pub name: String,
     /// The length that the stack knows.
     pub length: u32,
     pub memory: Memory<'a>,
@@ -40,16 +43,22 @@ pub(super) struct Slot<'a> {
 /// Where a value lies.
 pub(super) enum Memory<'a> {
     /// In the variable of a group.
-    Variable { group: Group<'a>, cell: Cell, member: String },
+    Variable { group: Group<'a>, cell: Cell },
     /// Nowhere, as the stack itself or the application has it: the history of errors, a DOMAIN.
     Stack,
     /// Nowhere, as it is another view of another entry.
     View,
 }
 
-/// All objects of a device, ascending.
-pub(super) fn of_device(device: &Dictionary) -> Vec<StackObject<'_>> {
-    device.objects.values().map(StackObject::of).collect()
+/// All objects of a device, ascending. Their names are those of another form of it: with its index in it, a name needs nothing that distinguishes it from
+/// those of other objects.
+pub(super) fn of_device<'a>(
+    device: &'a Dictionary,
+    named: &Dictionary,
+    srdos: &Srdos,
+) -> Vec<StackObject<'a>> {
+    let named = |object: &'a Object| named.objects.get(&object.index).unwrap_or(object);
+    device.objects.values().map(|object| StackObject::of(object, named(object), srdos)).collect()
 }
 
 /// The groups in which values of a device lie, in the order of the files.
@@ -59,11 +68,11 @@ pub(super) fn groups_of<'a>(objects: &[StackObject<'a>]) -> Vec<Group<'a>> {
 }
 
 impl<'a> StackObject<'a> {
-    fn of(object: &'a Object) -> Self {
-        let name = names::of_object(object);
-        let members = names::of_members(&object.entries);
+    fn of(object: &'a Object, named: &Object, srdos: &Srdos) -> Self {
+        let name = names::of_object(named);
+        let members = names::of_members(&named.entries);
         let group_of_rest = group_of_rest(object);
-        let slot = |(entry, member): (&'a Entry, String)| Slot::of(object, entry, member, group_of_rest);
+        let slot = |(entry, name): (&'a Entry, String)| Slot::of(object, entry, name, srdos, group_of_rest);
         let mut slots: Vec<Slot<'a>> = object.entries.iter().zip(members).map(slot).collect();
         let shape = if !object.is_structured() && slots.len() == 1 {
             slots.pop().map_or_else(|| Shape::Record(Vec::new()), Shape::Var)
@@ -116,19 +125,25 @@ impl<'a> StackObject<'a> {
 
     /// The value of an entry in its group: `x1018_identity.vendor_ID`.
     pub(super) fn path(&self, slot: &Slot<'_>) -> Option<String> {
-        let Memory::Variable { member, .. } = &slot.memory else { return None };
+        slot.variable()?;
         let variable = self.variable();
         Some(match &self.shape {
             Shape::Var(_) => variable,
             Shape::Array { .. } if slot.id.sub == SubIndex(0) => format!("{variable}_sub0"),
             Shape::Array { .. } => format!("{variable}[{}]", slot.id.sub.0 - 1),
-            Shape::Record(_) => format!("{variable}.{member}"),
+            Shape::Record(_) => format!("{variable}.{}", slot.name),
         })
     }
 }
 
 impl<'a> Slot<'a> {
-    fn of(object: &'a Object, entry: &'a Entry, member: String, group_of_rest: Option<Storage>) -> Self {
+    fn of(
+        object: &'a Object,
+        entry: &'a Entry,
+        name: String,
+        srdos: &Srdos,
+        group_of_rest: Option<Storage>,
+    ) -> Self {
         let id = EntryId { index: object.index, sub: entry.sub };
         let cell = Cell::of(entry);
         // What describes the shape of an object is with the object.
@@ -138,29 +153,22 @@ impl<'a> Slot<'a> {
             _ if entry.alias.is_some() => Memory::View,
             _ if object.index.0 == 0x1003 => Memory::Stack,
             None => Memory::Stack,
-            Some(cell) => Memory::Variable { group: Group::of(object, entry, storage), cell, member },
+            Some(cell) => Memory::Variable { group: Group::of(object, entry, storage), cell },
         };
         Self {
             id,
             entry,
-            attributes: Attributes::of(object, entry),
+            attributes: Attributes::of(object, entry, srdos),
+            name,
             length: cell.map_or(0, Cell::length),
             memory,
-        }
-    }
-
-    /// The name of the value as one of several of a RECORD.
-    pub(super) fn member(&self) -> Option<&str> {
-        match &self.memory {
-            Memory::Variable { member, .. } => Some(member),
-            Memory::Stack | Memory::View => None,
         }
     }
 
     /// The group and the variable of the value.
     pub(super) const fn variable(&self) -> Option<(Group<'a>, Cell)> {
         match &self.memory {
-            Memory::Variable { group, cell, .. } => Some((*group, *cell)),
+            Memory::Variable { group, cell } => Some((*group, *cell)),
             Memory::Stack | Memory::View => None,
         }
     }

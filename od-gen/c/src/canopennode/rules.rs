@@ -1,7 +1,9 @@
 //! The rules of a device as rows: what the extension of each object asks before a value is written.
 
+use std::collections::BTreeSet;
+
 use od_gen::plan::{Plan, PlannedAlias, PlannedEntry, Pool};
-use od_spec::model::{DataType, EntryId, Family, SubIndex};
+use od_spec::model::{DataType, Dictionary, Direction, EntryId, Family, Index, PdoTarget, SubIndex};
 
 use super::cell::Cell;
 use super::objects::{Memory, Slot, StackObject};
@@ -99,6 +101,10 @@ pub(super) struct Rules<'o, 'a> {
     pub conditions: Pool<u16>,
     /// Positions in the plan's aliases.
     pub views: Vec<usize>,
+    /// Entries that a TPDO can carry.
+    pub transmitted: Vec<EntryId>,
+    /// Objects with flags by which the application requests the TPDOs that map them.
+    pub requestable: Vec<Index>,
     /// Entries with rules that are not kept, as the stack has the objects.
     pub left_to_stack: Vec<EntryId>,
 }
@@ -109,6 +115,41 @@ pub(super) const fn has_extension_of_stack(index: u16) -> bool {
         index,
         0x1003 | 0x1005 | 0x100C | 0x100D | 0x1010 | 0x1011 | 0x1012 | 0x1014..=0x1017 | 0x1019 | 0x1200..=0x13FF | 0x1400..=0x1BFF
     )
+}
+
+/// What TPDOs can carry.
+enum Carried {
+    /// What is mappable, as a mapping can be changed.
+    Mappable,
+    /// What is mapped.
+    Only(BTreeSet<EntryId>),
+}
+
+impl Carried {
+    fn by_tpdos(device: &Dictionary) -> Self {
+        let mut mappings = device.objects.range(Index(0x1A00)..Index(0x1C00)).map(|(_, object)| object);
+        if mappings.any(|mapping| mapping.entries.iter().any(|entry| entry.access.is_writable())) {
+            return Self::Mappable;
+        }
+        let mapped =
+            device.pdos.iter().filter(|pdo| pdo.direction == Direction::Transmit).flat_map(|pdo| &pdo.map);
+        Self::Only(
+            mapped
+                .filter_map(|mapped| match mapped.target {
+                    PdoTarget::Entry(id) => Some(id),
+                    PdoTarget::Dummy(_) => None,
+                })
+                .collect(),
+        )
+    }
+
+    fn include(&self, slot: &Slot<'_>) -> bool {
+        slot.entry.pdo.allows(Direction::Transmit)
+            && match self {
+                Self::Mappable => true,
+                Self::Only(mapped) => mapped.contains(&slot.id),
+            }
+    }
 }
 
 impl<'o, 'a> Rules<'o, 'a> {
@@ -122,6 +163,7 @@ impl<'o, 'a> Rules<'o, 'a> {
 
     pub(super) fn of(plan: &Plan<'_>, objects: &'o [StackObject<'a>]) -> Self {
         let mut rules = Self::default();
+        let carried = Carried::by_tpdos(plan.device);
         for object in objects {
             let slots = object.slots();
             if has_extension_of_stack(object.object.index.0) {
@@ -140,10 +182,16 @@ impl<'o, 'a> Rules<'o, 'a> {
             }
             // What lies nowhere is refused, until the application has an extension for it.
             let lies_nowhere = slots.iter().any(|slot| matches!(slot.memory, Memory::Stack));
+            if !rows.is_empty() || lies_nowhere {
+                rules.objects.push(RuledObject { object, rules: rows });
+            }
             // The flags by which a TPDO is requested are those of an extension.
             let requests_tpdos = object.object.editor.as_ref().is_some_and(|notes| notes.requests_tpdos);
-            if !rows.is_empty() || lies_nowhere || requests_tpdos {
-                rules.objects.push(RuledObject { object, rules: rows });
+            let transmitted = slots.iter().filter(|slot| carried.include(slot));
+            let before = rules.transmitted.len();
+            rules.transmitted.extend(transmitted.map(|slot| slot.id));
+            if requests_tpdos || rules.transmitted.len() > before {
+                rules.requestable.push(object.object.index);
             }
         }
         rules

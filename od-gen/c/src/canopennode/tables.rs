@@ -159,8 +159,10 @@ impl Entries for Read {
 
 fn views(text: &mut Text, plan: &Plan<'_>, rules: &Rules<'_, '_>) {
     let rows: Vec<String> = rules.aliases(plan).into_iter().filter_map(|alias| view(plan, alias)).collect();
-    let none = "{0U, 0U, 0U, 0U, 0U, 0U, 1U, 1U, 0, 0, 0, 0}";
-    list(text, "const OD_ruleView_t OD_ruleViews[]", &rows, none);
+    // What reads them is compiled where there are some.
+    if !rows.is_empty() {
+        list(text, "const OD_ruleView_t OD_ruleViews[]", &rows, "");
+    }
 }
 
 fn view(plan: &Plan<'_>, alias: &PlannedAlias) -> Option<String> {
@@ -225,7 +227,22 @@ fn rows(text: &mut Text, rules: &Rules<'_, '_>) {
     list(text, "const OD_ruledObject_t OD_ruledObjects[]", &of_objects, "{0U, 0U, 0U}");
     text.gap();
     text.line(&format!("const uint16_t OD_ruledObjectsCount = {}U;", of_objects.len()));
-    text.line(&format!("OD_ruledExtension_t OD_ruledExtensions[{}];", of_objects.len().max(1)));
+    text.line(&format!("OD_extension_t *OD_extensionsBehind[{}];", of_objects.len().max(1)));
+    let requestable: Vec<String> =
+        rules.requestable.iter().map(|index| format!("0x{:04X}U", index.0)).collect();
+    text.gap();
+    text.comment("Objects with flags by which the application requests the TPDOs that map them.");
+    text.block("const uint16_t OD_requestable[] = {", "};", |text| {
+        if requestable.is_empty() {
+            text.line("0U");
+        }
+        text.items(requestable.iter().cloned());
+    });
+    text.gap();
+    text.line(&format!("const uint16_t OD_requestableCount = {}U;", requestable.len()));
+    text.line("#if OD_FLAGS_PDO_SIZE > 0");
+    text.line(&format!("OD_extension_t OD_requestableExtensions[{}];", requestable.len().max(1)));
+    text.line("#endif");
 }
 
 fn members(rule: &Rule) -> String {

@@ -8,7 +8,7 @@ use super::raw::Raw;
 use super::{dictionary_type, inline, table};
 
 /// The type of an entry's values.
-fn value_type(page: &Page<'_, '_>, kind: &ValueKind, raw: Raw) -> String {
+pub(super) fn value_type(page: &Page<'_, '_>, kind: &ValueKind, raw: Raw) -> String {
     kind.named.as_ref().map_or_else(|| raw.type_name(), |named| page.names.type_of(named))
 }
 
@@ -26,7 +26,7 @@ pub(super) fn of_entry(page: &mut Page<'_, '_>, entry: &PlannedEntry<'_>) {
         (Place::Image(at), _) => {
             let pointer = format!("&od->image[{at}]");
             getter(page, entry, raw, raw.load(&pointer));
-            setter(page, entry, raw, raw.store(&pointer));
+            setter(page, entry, raw, raw.store(&pointer, "value"));
         }
         // A number of entries that never changes is a constant of the shape.
         (Place::Constant(_), _) if !is_accessible(entry) => {}
@@ -146,7 +146,7 @@ pub(super) fn of_elements(page: &mut Page<'_, '_>, planned: &PlannedObject<'_>) 
     let Place::Image(start) = first.place else { return };
     let raw = Raw::of(page.plan, &first.kind);
     let pointer = format!("&od->image[{start}U + (((size_t)sub - 1U) * {}U)]", first.size);
-    let (Some(load), Some(store)) = (raw.load(&pointer), raw.store(&pointer)) else { return };
+    let (Some(load), Some(store)) = (raw.load(&pointer), raw.store(&pointer, "value")) else { return };
     let of = value_type(page, &first.kind, raw);
     let highest = elements.len();
     let is_missing =

@@ -2,6 +2,7 @@
 
 mod accessors;
 mod entries;
+mod pdos;
 mod raw;
 mod tables;
 
@@ -43,6 +44,7 @@ pub(super) fn header(page: &mut Page<'_, '_>) {
     page.text.line("#endif");
     dictionary(page);
     entries::entries(page);
+    pdos::pdos(page);
     page.text.gap();
     page.text.line("#ifdef __cplusplus");
     page.text.line("}");

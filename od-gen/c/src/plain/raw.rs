@@ -70,20 +70,32 @@ impl Raw {
         })
     }
 
-    /// The statement that puts `value` at a pointer.
-    pub(super) fn store(self, pointer: &str) -> Option<String> {
+    /// Bits on the bus, where their number is fixed.
+    pub(super) const fn bits(self) -> Option<u16> {
+        match self {
+            Raw::Integer(_, bits) => Some(bits),
+            Raw::Bool => Some(1),
+            Raw::Single => Some(32),
+            Raw::Double => Some(64),
+            Raw::Time => Some(48),
+            Raw::String | Raw::Nothing => None,
+        }
+    }
+
+    /// The statement that puts a value at a pointer.
+    pub(super) fn store(self, pointer: &str, value: &str) -> Option<String> {
         Some(match self {
             Raw::Integer(Integer { signed, bits }, on_bus) if u16::from(bits) == on_bus => {
-                format!("od_put_{}{bits}({pointer}, value);", if signed { 'i' } else { 'u' })
+                format!("od_put_{}{bits}({pointer}, {value});", if signed { 'i' } else { 'u' })
             }
             Raw::Integer(integer, on_bus) => {
                 let put = if integer.signed { "signed" } else { "unsigned" };
-                format!("od_put_{put}({pointer}, {}U, value);", on_bus / 8)
+                format!("od_put_{put}({pointer}, {}U, {value});", on_bus / 8)
             }
-            Raw::Bool => format!("*{pointer} = value ? 1U : 0U;"),
-            Raw::Single => format!("od_put_real32({pointer}, value);"),
-            Raw::Double => format!("od_put_real64({pointer}, value);"),
-            Raw::Time => format!("od_put_time({pointer}, value);"),
+            Raw::Bool => format!("*{pointer} = {value} ? 1U : 0U;"),
+            Raw::Single => format!("od_put_real32({pointer}, {value});"),
+            Raw::Double => format!("od_put_real64({pointer}, {value});"),
+            Raw::Time => format!("od_put_time({pointer}, {value});"),
             Raw::String | Raw::Nothing => return None,
         })
     }

@@ -48,6 +48,8 @@ pub(super) fn tables(page: &mut Page<'_, '_>) {
     );
     lists.sparse(plan);
     lists.list("Views of other entries.", "od_alias_t", "aliases", None, plan.aliases.iter().map(alias));
+    let views = if plan.aliases.is_empty() { "NULL" } else { "&od_views" };
+    lists.members.push(Member { name: "views", value: views.to_owned() });
     let limits = plan.limits.iter().map(|(low, high)| {
         format!("{{{}, {}}}", NUMBER.literal((*low).into()), NUMBER.literal((*high).into()))
     });

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use od_c as c;
+use od_c::{self as c, Prefix};
 use od_formats::{Selection, artifacts};
 use od_gen::files::{Existing, WriteError, left_over, remove};
 use od_gen::{Artifact, CHECK, Provenance, rust};
@@ -49,6 +49,10 @@ pub(crate) struct BuildArgs {
     /// Also the dictionary of each device in C, for this kind of firmware, `c/KEY/`
     #[arg(long, value_enum, value_name = "KIND")]
     pub c: Vec<CKind>,
+
+    /// What begins the names of the dictionary for CANopenNode, where several are in one program [default: OD]
+    #[arg(long, value_name = "NAME", requires = "c")]
+    pub prefix: Option<Prefix>,
 
     /// Also the reference documentation in this format, `docs/`
     #[arg(long, value_enum, value_name = "FORMAT")]
@@ -101,6 +105,11 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
         if !systems.iter().any(|built| built.used.system.device(key).is_some()) {
             return report.unknown_device(systems.iter().map(|built| &built.used.system), key);
         }
+    }
+    if let Some(prefix) = &args.prefix
+        && let Err(diagnostic) = is_of_one(args, prefix, systems.iter().map(|built| &built.used.system))
+    {
+        return report.refuse(diagnostic);
     }
     let templates = match args.docs.as_slice() {
         [] => Ok(Vec::new()),
@@ -172,7 +181,7 @@ pub(crate) fn run(args: &BuildArgs, directory: &Path, report: &Report) -> u8 {
     // What is made of some devices says nothing about the others.
     let left = if args.device.is_empty() { left_from_before(args, &set) } else { Ok(String::new()) };
     match left {
-        Ok(text) => print(&(text + &to_open(&args.out, &set))),
+        Ok(text) => print(&(text + &to_open(args, &set))),
         Err(error) => report.refuse(not_written(&error)),
     }
 }
@@ -208,28 +217,29 @@ fn left_from_before(args: &BuildArgs, set: &[Artifact]) -> Result<String, WriteE
 }
 
 /// The first file of each kind that a user opens, and how many more there are.
-fn to_open(out: &Path, set: &[Artifact]) -> String {
-    type IsOfKind = fn(folder: &str, name: &str) -> bool;
+fn to_open(args: &BuildArgs, set: &[Artifact]) -> String {
+    type IsOfKind = fn(folder: &str, name: &str, of_stack: &str) -> bool;
     const KINDS: [(&str, IsOfKind); 4] = [
-        ("EDS", |folder, name| folder == "eds" && matches!(name.rsplit_once('.'), Some((_, "eds")))),
-        ("page", |folder, name| {
+        ("EDS", |folder, name, _| folder == "eds" && matches!(name.rsplit_once('.'), Some((_, "eds")))),
+        ("page", |folder, name, _| {
             folder == "docs" && ["README.md", "index.html", "manual.html"].contains(&name)
         }),
-        ("Rust", |folder, _| folder == "src"),
-        ("C", |folder, name| folder == "c" && (name == "OD.h" || name.ends_with("_od.h"))),
+        ("Rust", |folder, _, _| folder == "src"),
+        ("C", |folder, name, of_stack| folder == "c" && (name == of_stack || name.ends_with("_od.h"))),
     ];
+    let of_stack = format!("{}.h", args.prefix.clone().unwrap_or_default());
     let mut text = String::from("to open:\n");
     for (kind, is_of_kind) in KINDS {
         let mut paths = set.iter().map(|artifact| artifact.path.as_str()).filter(|path| {
             let folder = path.split('/').next().unwrap_or_default();
-            is_of_kind(folder, path.rsplit('/').next().unwrap_or_default())
+            is_of_kind(folder, path.rsplit('/').next().unwrap_or_default(), &of_stack)
         });
         if let Some(first) = paths.next() {
             let more = match paths.count() {
                 0 => String::new(),
                 more => format!(", and {more} more"),
             };
-            let _ = writeln!(text, "  {kind:<4}  {}{more}", shown(&out.join(first)));
+            let _ = writeln!(text, "  {kind:<4}  {}{more}", shown(&args.out.join(first)));
         }
     }
     text
@@ -269,8 +279,33 @@ fn code(
     if args.rust {
         set.extend(rust::artifacts(system, devices(), &provenance, diagnostics));
     }
-    set.extend(c::artifacts(system, devices(), &provenance, &kinds(args), diagnostics));
+    let options = c::Options { kinds: kinds(args), prefix: args.prefix.clone().unwrap_or_default() };
+    set.extend(c::artifacts(system, devices(), &provenance, &options, diagnostics));
     (diagnostics.errors_found() == errors).then_some(set)
+}
+
+/// Whether a prefix is that of one dictionary for CANopenNode.
+fn is_of_one<'s>(
+    args: &BuildArgs,
+    prefix: &Prefix,
+    systems: impl Iterator<Item = &'s System>,
+) -> Result<(), Diagnostic> {
+    let devices: Vec<&str> = systems
+        .flat_map(|system| &system.devices)
+        .filter(|device| wanted(args, device))
+        .map(|device| device.key.as_str())
+        .collect();
+    if !kinds(args).contains(&c::Kind::CanopenNode) {
+        let message = format!("the prefix `{prefix}` is for no file: only C for CANopenNode has one");
+        return Err(Diagnostic::without_place(codes::BAD_NOTATION, message)
+            .help("add `--c canopennode`, or leave out `--prefix`"));
+    }
+    if devices.len() > 1 {
+        let message = format!("`{prefix}` cannot begin the names of {} dictionaries", devices.len());
+        return Err(Diagnostic::without_place(codes::BAD_NOTATION, message)
+            .help(format!("build one with each prefix: `--device {} --prefix {prefix}`", devices[0])));
+    }
+    Ok(())
 }
 
 /// The kinds of C that are wanted, each once.

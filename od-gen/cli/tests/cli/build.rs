@@ -62,6 +62,44 @@ fn build_makes_c_when_asked() {
 }
 
 #[test]
+fn a_prefix_is_that_of_one_dictionary() {
+    let scratch = Scratch::new("prefix");
+    let spec = "od-spec: 1\ntitle: Lamps\nuses: [cia301]\ndevices:\n\
+                \x20 lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}\n\
+                \x20 torch: {name: Torch, bit-rates: [125], features: [heartbeat producer]}\n";
+    scratch.file("lamps.od.yaml", spec);
+    let build =
+        |more: &[&str]| odgen(&scratch.0, &[&["build", "lamps.od.yaml", "--prefix", "ODA"], more].concat());
+    let lacking = build(&[]);
+    assert_eq!(code(&lacking), 2, "{}", stderr(&lacking));
+    let plain = build(&["--c", "plain"]);
+    assert_eq!(code(&plain), 2);
+    assert!(stderr(&plain).contains("the prefix `ODA` is for no file"), "{}", stderr(&plain));
+    let two = build(&["--c", "canopennode"]);
+    assert_eq!(code(&two), 2);
+    assert!(stderr(&two).contains("`ODA` cannot begin the names of 2 dictionaries"), "{}", stderr(&two));
+    assert!(!scratch.0.join("generated").exists());
+    let one = build(&["--c", "canopennode", "--device", "lamp"]);
+    assert_eq!(code(&one), 0, "{}", stderr(&one));
+    assert!(stdout(&one).contains("C     generated/c/lamp/ODA.h"), "{}", stdout(&one));
+    assert_eq!(
+        files(&scratch.0.join("generated/c/lamp")),
+        [
+            "CO_driver_custom.h",
+            "ODA.c",
+            "ODA.h",
+            "ODA_extension.c",
+            "ODA_extension.h",
+            "ODA_rules.c",
+            "OD_types.h",
+        ]
+    );
+    let word = odgen(&scratch.0, &["build", "lamps.od.yaml", "--c", "canopennode", "--prefix", "int"]);
+    assert_eq!(code(&word), 2);
+    assert!(stderr(&word).contains("names in C begin with a letter"), "{}", stderr(&word));
+}
+
+#[test]
 fn names_of_two_devices_do_not_meet_in_c() {
     let scratch = Scratch::new("c-names");
     let spec = LAMP

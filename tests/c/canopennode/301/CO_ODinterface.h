@@ -23,7 +23,9 @@ typedef double float64_t;
 typedef uint32_t OD_size_t;
 typedef uint8_t OD_attr_t;
 
-#define OD_FLAGS_PDO_SIZE 4
+#ifndef OD_FLAGS_PDO_SIZE
+#define OD_FLAGS_PDO_SIZE 4U
+#endif
 #define CO_PROGMEM const
 
 /* Attributes of an entry. */
@@ -94,7 +96,9 @@ typedef struct {
     void *object;
     ODR_t (*read)(OD_stream_t *stream, void *buf, OD_size_t count, OD_size_t *countRead);
     ODR_t (*write)(OD_stream_t *stream, const void *buf, OD_size_t count, OD_size_t *countWritten);
+#if OD_FLAGS_PDO_SIZE > 0
     uint8_t flagsPDO[OD_FLAGS_PDO_SIZE];
+#endif
 } OD_extension_t;
 
 typedef struct {
@@ -122,6 +126,18 @@ static inline ODR_t OD_extension_init(OD_entry_t *entry, OD_extension_t *extensi
     }
     entry->extension = extension;
     return ODR_OK;
+}
+
+/* A bit for each sub-index: 0 asks for the TPDOs that map the entry, 1 says that they were sent. */
+static inline void OD_requestTPDO(OD_entry_t *entry, uint8_t subIndex) {
+#if OD_FLAGS_PDO_SIZE > 0
+    if ((entry != NULL) && (entry->extension != NULL) && (subIndex < (OD_FLAGS_PDO_SIZE * 8U))) {
+        entry->extension->flagsPDO[subIndex >> 3U] &= (uint8_t)~(1U << (subIndex & 7U));
+    }
+#else
+    (void)entry;
+    (void)subIndex;
+#endif
 }
 
 #ifdef OD_DEFINITION

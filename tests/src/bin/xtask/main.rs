@@ -11,6 +11,7 @@ mod form;
 mod hostile;
 mod installed;
 mod manuals;
+mod misra;
 mod package;
 mod parts;
 mod plain_c;

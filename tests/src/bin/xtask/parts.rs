@@ -7,7 +7,7 @@ use od_tests::Failure;
 
 use crate::runner::Runner;
 use crate::tools::Tool;
-use crate::{browser, english, form, installed, manuals, package, plain_c, readers, rust_tests};
+use crate::{browser, english, form, installed, manuals, misra, package, plain_c, readers, rust_tests};
 
 /// A part of the tests.
 pub(crate) struct Part {
@@ -124,7 +124,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 47] = [
+pub(crate) static PARTS: [Part; 48] = [
     rust("form", "form", Tier::Check, form::check),
     rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
@@ -327,6 +327,17 @@ pub(crate) static PARTS: [Part; 47] = [
         )
     },
     Part {
+        area: Area::Firmware,
+        turn: Turn::Beside,
+        needs: &[Tool::Cppcheck],
+        ..rust(
+            "misra",
+            "dictionaries in plain C by MISRA",
+            Tier::Long("needs a tool that few machines have, and whose findings differ by its version"),
+            misra::try_all,
+        )
+    },
+    Part {
         uses: NODE,
         ..reader(
             "long-sdo",
@@ -458,7 +469,7 @@ mod tests {
                 .iter()
                 .all(|name| name.bytes().all(|byte| byte.is_ascii_lowercase() || b"-2".contains(&byte)))
         );
-        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Emacs));
+        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Cppcheck));
     }
 
     #[test]

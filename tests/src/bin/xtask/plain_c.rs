@@ -6,7 +6,8 @@ use od_bus::runtime::{self, LiveDictionary};
 use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
 use od_spec::diag::Diagnostics;
 use od_tests::c_dictionary::{
-    Compiler, Exchange, Host, Reference, Trial, compare, compile_header, emulate, write,
+    Compiler, DICTIONARY, Exchange, Host, Reference, SDO_SERVER, SdoTrial, Trial, compare, compile_header,
+    emulate, write,
 };
 use od_tests::{Failure, root};
 
@@ -31,6 +32,9 @@ const TESTED: [&str; 4] = [
     "tests/readers/scales.od.yaml",
     "tests/c/conditions.od.yaml",
 ];
+
+/// The valve of the book with values of more kinds.
+const SERVED: &str = "tests/c/valve.od.yaml";
 
 /// What Rust links with is tried by the Rust tests.
 fn compilers() -> [Compiler; 4] {
@@ -69,7 +73,7 @@ pub(crate) fn try_all(runner: &mut Runner, amount: Amount) -> Result<(), Failure
             Trial::new(Reference::plain(dictionary), seed).exchange(random)
         })?;
     }
-    Ok(())
+    trial.sdo_server()
 }
 
 struct PlainC<'r> {
@@ -78,6 +82,29 @@ struct PlainC<'r> {
 }
 
 impl PlainC<'_> {
+    /// The SDO server of the book, on a dictionary with values of all lengths.
+    fn sdo_server(&mut self) -> Result<(), Failure> {
+        const NODE: u8 = 5;
+        let directory = self.directory.join("sdo");
+        let written = write(SERVED, &directory)?;
+        let [device] = written.system.devices.as_slice() else {
+            return Err(format!("{SERVED} has several devices").into());
+        };
+        let live = runtime::device(&written.system, device, &mut Diagnostics::new())
+            .ok_or("no table can be made")?;
+        let lists = live.lists();
+        let table = lists.table().map_err(|error| error.to_string())?;
+        let exchange = SdoTrial::new(LiveDictionary::new(&live, &table, NODE)?, NODE)?.exchange();
+        let [clang, _, _, thumb] = compilers();
+        let host = Host::build_with(&clang, &directory, &device.key, &SDO_SERVER)?;
+        compare(&exchange, &host.ask(&exchange)?)?;
+        let linker = thumb_linker().ok_or("no linker for a Cortex-M")?;
+        let said = emulate(&thumb, &linker, &directory, &device.key, &SDO_SERVER, &exchange)?;
+        self.runner
+            .print(&format!("SDO server: {} frames on the host, and on a Cortex-M {said}", exchange.len()));
+        Ok(())
+    }
+
     fn device(
         &mut self,
         path: &str,
@@ -95,7 +122,7 @@ impl PlainC<'_> {
         let exchange = exchange(2);
         compare(&exchange, &Host::build(&clang, &directory, key)?.ask(&exchange)?)?;
         let linker = thumb_linker().ok_or("no linker for a Cortex-M")?;
-        let said = emulate(&thumb, &linker, &directory, key, &exchange)?;
+        let said = emulate(&thumb, &linker, &directory, key, &DICTIONARY, &exchange)?;
         self.runner
             .print(&format!("{key}: {} requests on the host, and on a Cortex-M {said}", exchange.len()));
         Ok(())

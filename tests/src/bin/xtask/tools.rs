@@ -39,10 +39,12 @@ pub(crate) enum Tool {
     Wine,
     /// With eglot and yaml-mode.
     Emacs,
+    /// Reads C by the rules of MISRA.
+    Cppcheck,
 }
 
 impl Tool {
-    pub(crate) const ALL: [Tool; 13] = [
+    pub(crate) const ALL: [Tool; 14] = [
         Tool::Python,
         Tool::Node,
         Tool::Chromium,
@@ -56,6 +58,7 @@ impl Tool {
         Tool::Mingw,
         Tool::Wine,
         Tool::Emacs,
+        Tool::Cppcheck,
     ];
 
     pub(crate) const fn name(self) -> &'static str {
@@ -73,6 +76,7 @@ impl Tool {
             Tool::Mingw => "mingw-w64",
             Tool::Wine => "Wine",
             Tool::Emacs => "Emacs with eglot and yaml-mode",
+            Tool::Cppcheck => "cppcheck with its addon misra",
         }
     }
 
@@ -97,6 +101,7 @@ impl Tool {
             Tool::Mingw => &["apt-get install gcc-mingw-w64-x86-64"],
             Tool::Wine => &["apt-get install wine wine64"],
             Tool::Emacs => &["apt-get install emacs-nox elpa-eglot elpa-yaml-mode"],
+            Tool::Cppcheck => &["apt-get install cppcheck"],
         }
     }
 
@@ -127,6 +132,7 @@ impl Tool {
                 let check = "(progn (package-initialize) (require 'eglot) (require 'yaml-mode))";
                 is_in_path("emacs") && succeeds(Command::new("emacs").args(["--batch", "--eval", check]))
             }
+            Tool::Cppcheck => is_in_path("cppcheck"),
         }
     }
 }

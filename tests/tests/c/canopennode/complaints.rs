@@ -199,6 +199,12 @@ fn what_the_stack_has_to_be_set_up_for_is_reported() {
         &eds(&elsewhere),
         "TPDO 1 (1017h may not be mapped in this direction): CANopenNode refuses the mapping",
     );
+    let wide = elsewhere.replace("0x10170010", "0x20000020");
+    let narrow = var("2000", "6", "rw", "0\nPDOMapping=1");
+    has(
+        &eds(&[wide, narrow].concat()),
+        "TPDO 1 (2000h has 16 bits, and 32 are mapped): CANopenNode refuses the mapping",
+    );
     let text = specification(
         "  0x2000: {name: label, type: unicode-string, capacity: 8, access: rw, default: Pump}",
     );
@@ -246,12 +252,12 @@ fn the_stack_is_compiled_as_a_dictionary_needs_it() {
 
     let project = of_text("set.eds", &eds(&both));
     for custom in [&[CUSTOM][..], &[]] {
-        assert_eq!(project.complaints(custom), "", "{custom:?}");
-        let unchecked = project.complaints(&[custom, &["-DCO_CONFIG_PDO=3"]].concat());
+        assert_eq!(project.complaints("OD_extension.c", custom), "", "{custom:?}");
+        let unchecked = project.complaints("OD_extension.c", &[custom, &["-DCO_CONFIG_PDO=3"]].concat());
         assert!(unchecked.contains("past limits, locks and conditions"), "{custom:?}: {unchecked}");
     }
     let project = of_text("bare.eds", &without(&whole, "1014"));
-    let history = project.complaints(&[CUSTOM, "-DCO_CONFIG_EM=CO_CONFIG_EM_HISTORY"]);
+    let history = project.complaints("OD_extension.c", &[CUSTOM, "-DCO_CONFIG_EM=CO_CONFIG_EM_HISTORY"]);
     assert!(history.contains("there is no 1003h, and the stack does not start"), "{history}");
 }
 
@@ -286,6 +292,80 @@ fn elements_that_differ_are_members_of_a_record() {
         differs.contains("entry 2000 1 43 2 01 00\n") && differs.contains("entry 2000 2 4F 2 02 00\n"),
         "{differs}"
     );
+}
+
+/// An SRDO that is sent (1301h.1 is 1) and one that is received, each with the inverted value of its entry.
+#[test]
+fn what_an_srdo_maps_is_marked_for_its_direction() {
+    let sub = |index: u16, sub: u8, data_type: u8, default: &str| {
+        format!(
+            "[{index:X}sub{sub}]\nParameterName=s{sub}\nObjectType=7\nDataType={data_type}\nAccessType=rw\nDefaultValue={default}\n"
+        )
+    };
+    let record = |index: u16, subs: &[(u8, &str)]| {
+        let subs: String = (0..)
+            .zip(subs)
+            .map(|(number, (data_type, default))| sub(index, number, *data_type, default))
+            .collect();
+        format!("[{index:X}]\nParameterName=p{index:X}\nObjectType=9\nSubNumber=3\n{subs}")
+    };
+    let values: String =
+        ["2000", "2001", "2002", "2003"].iter().map(|index| var(index, "5", "rw", "0")).collect();
+    let srdos = |direction: &str| {
+        [
+            record(0x1301, &[(5, "2"), (5, direction), (6, "25")]),
+            record(0x1302, &[(5, "2"), (5, "2"), (6, "25")]),
+            record(0x1381, &[(5, "2"), (7, "0x20000008"), (7, "0x20010008")]),
+            record(0x1382, &[(5, "1"), (7, "0x20020008"), (7, "0x20030008")]),
+            values.clone(),
+        ]
+        .concat()
+    };
+    let attributes = |direction: &str| {
+        let code = of_text("srdo.eds", &eds(&srdos(direction))).file("OD.c");
+        ["2000", "2001", "2002", "2003"].map(|index| {
+            let object = &code[code.find(&format!(".o_{index}_")).unwrap()..];
+            lines(object, ".attribute")[0]
+                .trim_start_matches(".attribute = ")
+                .trim_end_matches(',')
+                .to_owned()
+        })
+    };
+    let (sent, received, none) = ("ODA_SDO_RW | ODA_TSRDO", "ODA_SDO_RW | ODA_RSRDO", "ODA_SDO_RW");
+    assert_eq!(attributes("1"), [sent, sent, received, none]);
+    assert_eq!(attributes("0"), [none, none, received, none]);
+    let empty = eds(&record(0x1301, &[(5, "2"), (5, "1"), (6, "25")]));
+    let (said, is_made) = reported("srdo.eds", &empty);
+    assert!(said.contains("has SRDOs (1301h) that map nothing") && is_made, "{said}");
+}
+
+/// The index is in the name, so that equal names need nothing more.
+#[test]
+fn objects_of_one_name_are_called_as_the_exporter_calls_them() {
+    let twice = ["1400", "1401"].map(|index| {
+        let number = u16::from_str_radix(index, 16).unwrap();
+        let object = pdo(number, 2)
+            .replace(&format!("ParameterName=p{index}"), "ParameterName=RPDO communication parameter");
+        [object, pdo(number + 0x200, 1)].concat()
+    });
+    let header = of_text("twice.eds", &eds(&twice.concat())).file("OD.h");
+    for name in ["x1400_RPDOCommunicationParameter;", "x1401_RPDOCommunicationParameter;"] {
+        assert!(header.contains(name), "{name} in {header}");
+    }
+    assert!(header.contains("#define OD_SUB_H1401_s2 (2U)\n"), "{header}");
+}
+
+#[test]
+fn a_command_without_values_is_reported() {
+    let features = "features: [emergency, heartbeat producer, store parameters]";
+    let text = |stored: &str| {
+        specification(&format!("  0x2000: {{name: offset, type: unsigned8, access: rw, default: 0{stored}}}"))
+            .replace("features: [emergency, heartbeat producer]", features)
+    };
+    let (none, _) = reported("none.od.yaml", &text(""));
+    assert!(none.contains("1010h.1 (Save all parameters)") && none.contains("1010h.3 "), "{none}");
+    let (some, _) = reported("some.od.yaml", &text(", stored: application"));
+    assert!(!some.contains("1010h.1") && !some.contains("1010h.3 ") && some.contains("1010h.4 "), "{some}");
 }
 
 #[test]
@@ -437,7 +517,7 @@ fn the_files_are_the_same_in_every_run() {
             &system,
             system.devices.iter(),
             &provenance,
-            &[od_c::Kind::CanopenNode],
+            &od_c::Kind::CanopenNode.into(),
             &mut diagnostics,
         )
     };

@@ -61,7 +61,8 @@ fn expected(device: &Json) -> Vec<String> {
         let entries = object["entries"].as_array().unwrap();
         lines.push(format!("object {index} {} {}", kind(object, entries), entries.len()));
         for entry in entries {
-            let bytes = bytes(&index, entry);
+            let is_command = command(device, &index, entry);
+            let bytes = bytes(&index, entry).map(|bytes| if is_command { vec![1, 0, 0, 0] } else { bytes });
             lines.push(format!(
                 "entry {index} {} {:02X} {} {}",
                 entry["sub"],
@@ -72,6 +73,22 @@ fn expected(device: &Json) -> Vec<String> {
         }
     }
     lines
+}
+
+/// Whether an entry is a command that stores or restores something, and the dictionary has no value that says so.
+fn command(device: &Json, index: &str, entry: &Json) -> bool {
+    let groups: &[&str] = match entry["sub"].as_u64().unwrap() {
+        1 => &["communication", "application", "manufacturer"],
+        2 => &["communication"],
+        3 => &["application"],
+        4 => &["manufacturer"],
+        _ => &[],
+    };
+    let objects = device["objects"].as_array().unwrap();
+    let mut entries = objects.iter().flat_map(|object| object["entries"].as_array().unwrap());
+    ["1010", "1011"].contains(&index)
+        && entry["default"].is_null()
+        && entries.any(|entry| groups.contains(&text(entry, "stored")))
 }
 
 /// VAR 1, ARRAY 2, RECORD 3: an ARRAY has equal elements without a gap, which lie together.

@@ -71,7 +71,9 @@ fn an_import_gives_the_code_that_the_file_gives() {
 #[test]
 fn an_object_that_requests_tpdos_has_an_extension() {
     let requests = KILN.replace(";CO_countLabel=DOOR", ";TPDODetectCos=1");
-    let extended = |text: &str| of_text("kiln.eds", text).file("OD_rules.c").contains("{0x2001U, ");
+    let extended = |text: &str| {
+        of_text("kiln.eds", text).file("OD_rules.c").contains("OD_requestable[] = {\n    0x2001U,\n};")
+    };
     assert!(extended(&requests));
     assert!(!extended(KILN));
     of_text("kiln.eds", &requests).run("list_entries.c", &[]);

@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::slice;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use od_c::{self as c, Kind};
+use od_c::{self as c, Kind, Options, Prefix};
 use od_formats::json;
 use od_gen::Provenance;
 use od_spec::diag::Diagnostics;
@@ -20,6 +21,7 @@ use serde_json::Value as Json;
 /// The files of one device, in a directory of their own.
 pub(crate) struct Project {
     folder: PathBuf,
+    prefix: Prefix,
     /// The device in the dump.
     pub(crate) device: Json,
     /// The whole dump.
@@ -43,13 +45,20 @@ fn found<const N: usize>(programs: [&'static str; N]) -> Vec<&'static str> {
 pub(crate) fn of_workspace(path: &str) -> Vec<Project> {
     let (system, sources) = compile_with_sources(path).unwrap();
     let stem = Path::new(path).file_name().unwrap().to_string_lossy().into_owned();
-    of_system(&system, &sources, &stem)
+    of_system(&system, &sources, &Kind::CanopenNode.into(), &stem)
 }
 
 /// The project of a text, as a specification or, by its name, an EDS.
 pub(crate) fn of_text(name: &str, text: &str) -> Project {
     let (system, sources) = compiled(name, text);
-    of_system(&system, &sources, name).remove(0)
+    of_system(&system, &sources, &Kind::CanopenNode.into(), name).remove(0)
+}
+
+/// The same with a prefix.
+pub(crate) fn with_prefix(name: &str, text: &str, prefix: &str) -> Project {
+    let (system, sources) = compiled(name, text);
+    let options = Options { kinds: vec![Kind::CanopenNode], prefix: prefix.parse().unwrap() };
+    of_system(&system, &sources, &options, name).remove(0)
 }
 
 /// What is reported about a text that is refused, or of which C is made: the messages, and whether there are files.
@@ -60,7 +69,7 @@ pub(crate) fn reported(name: &str, text: &str) -> (String, bool) {
         &system,
         system.devices.iter(),
         &Provenance::of(&sources),
-        &[Kind::CanopenNode],
+        &Kind::CanopenNode.into(),
         &mut diagnostics,
     );
     (render(&diagnostics, &sources, Format::Human, false), !set.is_empty())
@@ -76,15 +85,10 @@ fn compiled(name: &str, text: &str) -> (System, SourceMap) {
 /// Of how many systems there are projects: tests run side by side, and several are about one device.
 static PROJECTS: AtomicUsize = AtomicUsize::new(0);
 
-fn of_system(system: &System, sources: &SourceMap, name: &str) -> Vec<Project> {
+fn of_system(system: &System, sources: &SourceMap, options: &Options, name: &str) -> Vec<Project> {
     let mut diagnostics = Diagnostics::new();
-    let set = c::artifacts(
-        system,
-        system.devices.iter(),
-        &Provenance::of(sources),
-        &[Kind::CanopenNode],
-        &mut diagnostics,
-    );
+    let set =
+        c::artifacts(system, system.devices.iter(), &Provenance::of(sources), options, &mut diagnostics);
     let reported = render(&diagnostics, sources, Format::Human, false);
     assert!(!diagnostics.has_errors(), "{reported}");
     let dump: Json = serde_json::from_slice(&json::dump(system, &[])).unwrap();
@@ -110,12 +114,59 @@ fn of_system(system: &System, sources: &SourceMap, name: &str) -> Vec<Project> {
         let path = folders.iter().find(is_of_device).unwrap();
         Project {
             folder: folder.join(path),
+            prefix: options.prefix.clone(),
             device: device.clone(),
             dump: dump.clone(),
             reported: reported.clone(),
         }
     };
     devices.iter().map(of_device).collect()
+}
+
+/// Compiles the files of dictionaries with a program of the tests, by every compiler that is there, and runs the last one.
+pub(crate) fn run_together(projects: &[Project], program: &str, arguments: &[&Path]) -> String {
+    let tests = root().join("tests/c/canopennode");
+    let first = &projects[0];
+    let mut output = None;
+    let mut folders: Vec<PathBuf> = vec![tests.clone()];
+    folders.extend(projects.iter().map(|project| project.folder.clone()));
+    let folders: Vec<String> = folders.iter().map(|folder| format!("-I{}", folder.display())).collect();
+    let generated: Vec<PathBuf> = projects
+        .iter()
+        .flat_map(|Project { prefix, folder, .. }| {
+            [".c", "_extension.c", "_rules.c"].map(|ending| folder.join(format!("{prefix}{ending}")))
+        })
+        .collect();
+    let own = ["interface.c", program].map(|file| tests.join(file));
+    let mut compilers = found(["gcc", "clang"]);
+    if compilers.is_empty() {
+        // What Rust links with is one of them.
+        compilers = found(["cc"]);
+    }
+    for compiler in compilers {
+        let made = first.folder.join(format!("{program}-{compiler}"));
+        let mut command = Command::new(compiler);
+        command.args([LANGUAGE, CUSTOM, "-fsanitize=undefined", "-fno-sanitize-recover=undefined"]);
+        command.args(WARNINGS).args(&folders).args(&generated).args(&own).arg("-o").arg(&made);
+        succeeds(&command.output().unwrap(), &format!("{compiler}: {}", first.key()));
+        let ended = Command::new(&made).args(arguments).output().unwrap();
+        output = Some(succeeds(&ended, &format!("{program}: {}", first.key())));
+    }
+    for compiler in found(["g++", "clang++"]) {
+        for Project { prefix, .. } in projects {
+            let names = [
+                format!("-DDICTIONARY={prefix}"),
+                format!("-DHEADER=\"{prefix}.h\""),
+                format!("-DEXTENSION=\"{prefix}_extension.h\""),
+            ];
+            let mut command = Command::new(compiler);
+            command.args(["-std=c++11", CUSTOM, "-fsyntax-only"]).args(names).args(WARNINGS).args(&folders);
+            let ended = command.arg(tests.join("includes.cpp")).output().unwrap();
+            succeeds(&ended, &format!("{compiler}: {}", first.key()));
+        }
+    }
+    assert!(output.is_some(), "generated C is compiled: install a C compiler");
+    output.unwrap()
 }
 
 impl Project {
@@ -130,54 +181,30 @@ impl Project {
 
     /// Compiles the files with a program of the tests, by every compiler that is there, and runs the last one.
     pub(crate) fn run(&self, program: &str, arguments: &[&Path]) -> String {
-        let tests = root().join("tests/c/canopennode");
-        let mut output = None;
-        let folders = ["-I".as_ref(), tests.as_os_str(), "-I".as_ref(), self.folder.as_os_str()];
-        let mut compilers = found(["gcc", "clang"]);
-        if compilers.is_empty() {
-            // What Rust links with is one of them.
-            compilers = found(["cc"]);
-        }
-        for compiler in compilers {
-            let made = self.folder.join(format!("{program}-{compiler}"));
-            let generated = ["OD.c", "OD_extension.c", "OD_rules.c"].map(|file| self.folder.join(file));
-            let own = ["interface.c", program].map(|file| tests.join(file));
-            let mut command = Command::new(compiler);
-            command
-                .args([LANGUAGE, CUSTOM, "-fsanitize=undefined", "-fno-sanitize-recover=undefined"])
-                .args(WARNINGS);
-            command.args(folders).args(generated).args(own).arg("-o").arg(&made);
-            succeeds(&command.output().unwrap(), &format!("{compiler}: {}", self.key()));
-            let ended = Command::new(&made).args(arguments).output().unwrap();
-            output = Some(succeeds(&ended, &format!("{program}: {}", self.key())));
-        }
-        for compiler in found(["g++", "clang++"]) {
-            let mut command = Command::new(compiler);
-            command.args(["-std=c++11", CUSTOM, "-fsyntax-only"]).args(WARNINGS).args(folders);
-            succeeds(
-                &command.arg(tests.join("includes.cpp")).output().unwrap(),
-                &format!("{compiler}: {}", self.key()),
-            );
-        }
-        assert!(output.is_some(), "generated C is compiled: install a C compiler");
-        output.unwrap()
+        run_together(slice::from_ref(self), program, arguments)
     }
 
-    /// What a compiler says of the files with settings of a project.
-    pub(crate) fn complaints(&self, settings: &[&str]) -> String {
+    /// What a compiler says of a file with settings of a project.
+    pub(crate) fn complaints(&self, file: &str, settings: &[&str]) -> String {
         let tests = root().join("tests/c/canopennode");
         let folders = ["-I".as_ref(), tests.as_os_str(), "-I".as_ref(), self.folder.as_os_str()];
         let mut command = Command::new("cc");
         command.args([LANGUAGE, "-fsyntax-only"]).args(settings).args(folders);
-        let output = command.arg(self.folder.join("OD_extension.c")).output().unwrap();
+        let output = command.arg(self.folder.join(file)).output().unwrap();
         String::from_utf8_lossy(&output.stderr).into_owned()
     }
 
     /// Writes a file next to those of the device.
     pub(crate) fn beside(&self, name: &str, bytes: &[u8]) -> PathBuf {
-        let path = self.folder.join(name);
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(&path, bytes).unwrap();
         path
+    }
+
+    /// Where a file of the device is.
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
     }
 }
 

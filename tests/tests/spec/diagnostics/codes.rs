@@ -36,6 +36,7 @@ const PROVOKED: &[Provocation] = &[
     Provocation { code: known::NOT_IN_FIRMWARE, diagnostics: names_clash },
     Provocation { code: known::STACK_REFUSES, diagnostics: without_heartbeat },
     Provocation { code: known::STACK_DIFFERS, diagnostics: with_bytes },
+    Provocation { code: known::NAMES_ALIKE, diagnostics: names_alike },
 ];
 
 fn unread(bytes: Vec<u8>) -> Diagnostics {
@@ -80,13 +81,29 @@ fn with_bytes() -> Diagnostics {
     )
 }
 
+fn names_alike() -> Diagnostics {
+    let name = "a long name of which the first characters are those of another one";
+    of_c(
+        &format!(
+            "od-spec: 1\ntitle: T\ndevices: {{d: {{name: D, bit-rates: [125]}}}}\n\
+             objects:\n  0x2000: {{name: {name} a, type: unsigned8, access: rw}}\n\
+             \x20 0x2001: {{name: {name} b, type: unsigned8, access: rw}}\n"
+        ),
+        c::Kind::Plain,
+    )
+}
+
 /// What is said when C for a stack is made.
 fn of_stack(text: &str) -> Diagnostics {
+    of_c(text, c::Kind::CanopenNode)
+}
+
+fn of_c(text: &str, kind: c::Kind) -> Diagnostics {
     let (sources, _, compiled) = run("stack.od.yaml", text);
     let system = compiled.system.unwrap();
     let mut diagnostics = Diagnostics::new();
-    let kinds = [c::Kind::CanopenNode];
-    c::artifacts(&system, system.devices.iter(), &Provenance::of(&sources), &kinds, &mut diagnostics);
+    let options = kind.into();
+    c::artifacts(&system, system.devices.iter(), &Provenance::of(&sources), &options, &mut diagnostics);
     diagnostics
 }
 

@@ -99,10 +99,6 @@ static int64_t ordered(uint8_t number, uint8_t size, const uint8_t *bytes) {
     return value;
 }
 
-static void put_number(uint8_t number, uint8_t size, uint8_t *bytes, int64_t value) {
-    put_bits(bytes, size, is_in_memory_order(number), (uint64_t)value);
-}
-
 /* Reads an entry as a client would: through the extension of its object. */
 static ODR_t read_entry(uint16_t index, uint8_t subIndex, uint8_t size, uint8_t *bytes) {
     OD_IO_t io;
@@ -128,6 +124,22 @@ bool_t OD_ruleNumber(uint16_t index, uint8_t subIndex, uint8_t number, uint8_t s
 
 /* ---- Rules ---- */
 
+/* The position of an object among those with rules, or OD_NO_ROW: they ascend. */
+static uint16_t position_of(uint16_t index) {
+    uint16_t low = 0U;
+    uint16_t high = OD_ruledObjectsCount;
+
+    while (low < high) {
+        const uint16_t middle = (uint16_t)(low + ((uint16_t)(high - low) / 2U));
+        if (OD_ruledObjects[middle].index < index) {
+            low = (uint16_t)(middle + 1U);
+        } else {
+            high = middle;
+        }
+    }
+    return ((low < OD_ruledObjectsCount) && (OD_ruledObjects[low].index == index)) ? low : OD_NO_ROW;
+}
+
 static const OD_rule_t *rule_in(const OD_ruledObject_t *object, uint8_t subIndex) {
     const OD_rule_t *found = NULL;
     uint16_t at;
@@ -136,18 +148,6 @@ static const OD_rule_t *rule_in(const OD_ruledObject_t *object, uint8_t subIndex
         const OD_rule_t *const rule = &OD_rules[object->firstRule + at];
         if ((subIndex >= rule->firstSub) && (subIndex <= rule->lastSub)) {
             found = rule;
-        }
-    }
-    return found;
-}
-
-static const OD_rule_t *rule_of(uint16_t index, uint8_t subIndex) {
-    const OD_rule_t *found = NULL;
-    uint16_t at;
-
-    for (at = 0U; (at < OD_ruledObjectsCount) && (found == NULL); at++) {
-        if (OD_ruledObjects[at].index == index) {
-            found = rule_in(&OD_ruledObjects[at], subIndex);
         }
     }
     return found;
@@ -277,15 +277,13 @@ static bool_t is_locked(const OD_rule_t *rule) {
 
 /* ---- What comes after the rules ---- */
 
-static ODR_t read_behind(OD_ruledExtension_t *extension, OD_stream_t *stream, void *buf, OD_size_t count, OD_size_t *countRead) {
-    OD_extension_t *const behind = extension->behind;
+static ODR_t read_behind(const OD_extension_t *behind, OD_stream_t *stream, void *buf, OD_size_t count, OD_size_t *countRead) {
     ODR_t outcome = ODR_UNSUPP_ACCESS;
 
     if (behind != NULL) {
         if (behind->read != NULL) {
             stream->object = behind->object;
             outcome = behind->read(stream, buf, count, countRead);
-            stream->object = extension;
         }
     } else if (stream->dataOrig != NULL) {
         outcome = OD_readOriginal(stream, buf, count, countRead);
@@ -295,15 +293,13 @@ static ODR_t read_behind(OD_ruledExtension_t *extension, OD_stream_t *stream, vo
     return outcome;
 }
 
-static ODR_t write_behind(OD_ruledExtension_t *extension, OD_stream_t *stream, const void *buf, OD_size_t count, OD_size_t *countWritten) {
-    OD_extension_t *const behind = extension->behind;
+static ODR_t write_behind(const OD_extension_t *behind, OD_stream_t *stream, const void *buf, OD_size_t count, OD_size_t *countWritten) {
     ODR_t outcome = ODR_UNSUPP_ACCESS;
 
     if (behind != NULL) {
         if (behind->write != NULL) {
             stream->object = behind->object;
             outcome = behind->write(stream, buf, count, countWritten);
-            stream->object = extension;
         }
     } else if (stream->dataOrig != NULL) {
         outcome = OD_writeOriginal(stream, buf, count, countWritten);
@@ -313,12 +309,22 @@ static ODR_t write_behind(OD_ruledExtension_t *extension, OD_stream_t *stream, c
     return outcome;
 }
 
+#ifdef OD_HAS_VIEWS
 /* ---- Views ---- */
+
+static const OD_rule_t *rule_of(uint16_t index, uint8_t subIndex) {
+    const uint16_t position = position_of(index);
+    return (position == OD_NO_ROW) ? NULL : rule_in(&OD_ruledObjects[position], subIndex);
+}
 
 /* The whole part of a quotient towards minus infinity; the divisor is positive. */
 static int64_t divided_down(int64_t dividend, int64_t divisor) {
     const int64_t quotient = dividend / divisor;
     return ((dividend % divisor) < 0) ? (quotient - 1) : quotient;
+}
+
+static void put_number(uint8_t number, uint8_t size, uint8_t *bytes, int64_t value) {
+    put_bits(bytes, size, is_in_memory_order(number), (uint64_t)value);
 }
 
 /* What a view shows of a value. */
@@ -421,75 +427,89 @@ static ODR_t write_view(const OD_rule_t *rule, const uint8_t *data, OD_size_t co
     }
     return outcome;
 }
+#endif
 
 /* ---- Extensions ---- */
 
 static ODR_t read_ruled(OD_stream_t *stream, void *buf, OD_size_t count, OD_size_t *countRead) {
+    const uint16_t position = (stream != NULL) ? position_of(stream->index) : OD_NO_ROW;
     ODR_t outcome = ODR_DEV_INCOMPAT;
 
-    if ((stream != NULL) && (stream->object != NULL) && (buf != NULL) && (countRead != NULL)) {
-        OD_ruledExtension_t *const extension = (OD_ruledExtension_t *)stream->object;
-        const OD_rule_t *const rule = rule_in(extension->object, stream->subIndex);
+    if ((position != OD_NO_ROW) && (buf != NULL) && (countRead != NULL)) {
+#ifdef OD_HAS_VIEWS
+        const OD_rule_t *const rule = rule_in(&OD_ruledObjects[position], stream->subIndex);
         if ((rule != NULL) && (rule->view != OD_NO_ROW)) {
             outcome = read_view(rule, buf, count, countRead);
-        } else {
-            outcome = read_behind(extension, stream, buf, count, countRead);
+        } else
+#endif
+        {
+            outcome = read_behind(OD_extensionsBehind[position], stream, buf, count, countRead);
         }
     }
     return outcome;
 }
 
 static ODR_t write_ruled(OD_stream_t *stream, const void *buf, OD_size_t count, OD_size_t *countWritten) {
+    const uint16_t position = (stream != NULL) ? position_of(stream->index) : OD_NO_ROW;
     ODR_t outcome = ODR_DEV_INCOMPAT;
 
-    if ((stream != NULL) && (stream->object != NULL) && (buf != NULL) && (countWritten != NULL)) {
-        OD_ruledExtension_t *const extension = (OD_ruledExtension_t *)stream->object;
-        const OD_rule_t *const rule = rule_in(extension->object, stream->subIndex);
+    if ((position != OD_NO_ROW) && (buf != NULL) && (countWritten != NULL)) {
+        const OD_extension_t *const behind = OD_extensionsBehind[position];
+        const OD_rule_t *const rule = rule_in(&OD_ruledObjects[position], stream->subIndex);
         if (rule == NULL) {
-            outcome = write_behind(extension, stream, buf, count, countWritten);
+            outcome = write_behind(behind, stream, buf, count, countWritten);
         } else if (is_locked(rule)) {
             outcome = ODR_DATA_DEV_STATE;
         } else {
             outcome = check_value(rule, stream, (const uint8_t *)buf, count);
             if (outcome != ODR_OK) {
                 /* Refused. */
-            } else if (rule->view != OD_NO_ROW) {
+            }
+#ifdef OD_HAS_VIEWS
+            else if (rule->view != OD_NO_ROW) {
                 outcome = write_view(rule, (const uint8_t *)buf, count, countWritten);
-            } else if (!is_open(rule)) {
+            }
+#endif
+            else if (!is_open(rule)) {
                 outcome = ODR_DATA_DEV_STATE;
             } else {
-                outcome = write_behind(extension, stream, buf, count, countWritten);
+                outcome = write_behind(behind, stream, buf, count, countWritten);
             }
         }
     }
     return outcome;
 }
 
+/* That of all objects with rules, except those of which a TPDO can be requested. */
+static OD_extension_t ruled = {.object = NULL, .read = read_ruled, .write = write_ruled};
+
 void OD_extendAll(OD_isUnlocked_t isUnlocked) {
     uint16_t at;
 
     is_unlocked = isUnlocked;
     for (at = 0U; at < OD_ruledObjectsCount; at++) {
-        OD_ruledExtension_t *const extension = &OD_ruledExtensions[at];
-        extension->object = &OD_ruledObjects[at];
-        extension->behind = NULL;
-        extension->extension.object = extension;
-        extension->extension.read = read_ruled;
-        extension->extension.write = write_ruled;
-        (void)OD_extension_init(OD_find(OD, OD_ruledObjects[at].index), &extension->extension);
+        OD_extensionsBehind[at] = NULL;
+        (void)OD_extension_init(OD_find(OD, OD_ruledObjects[at].index), &ruled);
     }
+#if OD_FLAGS_PDO_SIZE > 0
+    for (at = 0U; at < OD_requestableCount; at++) {
+        const bool_t has_rules = (bool_t)(position_of(OD_requestable[at]) != OD_NO_ROW);
+        OD_extension_t *const extension = &OD_requestableExtensions[at];
+        extension->object = NULL;
+        extension->read = has_rules ? read_ruled : OD_readOriginal;
+        extension->write = has_rules ? write_ruled : OD_writeOriginal;
+        (void)OD_extension_init(OD_find(OD, OD_requestable[at]), extension);
+    }
+#endif
 }
 
 ODR_t OD_extendBehind(OD_entry_t *entry, OD_extension_t *extension) {
     ODR_t outcome = ODR_IDX_NOT_EXIST;
 
     if (entry != NULL) {
-        uint16_t at = 0U;
-        while ((at < OD_ruledObjectsCount) && (entry->extension != &OD_ruledExtensions[at].extension)) {
-            at++;
-        }
-        if (at < OD_ruledObjectsCount) {
-            OD_ruledExtensions[at].behind = extension;
+        const uint16_t position = position_of(entry->index);
+        if (position != OD_NO_ROW) {
+            OD_extensionsBehind[position] = extension;
             outcome = ODR_OK;
         } else {
             outcome = OD_extension_init(entry, extension);

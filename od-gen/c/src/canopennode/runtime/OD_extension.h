@@ -33,8 +33,8 @@ void OD_extendAll(OD_isUnlocked_t isUnlocked);
  * Puts an extension of the application after the rules of an object: the stack has one for each object, and `OD_extension_init` would put the rules
  * out of force. To be called after `OD_extendAll`, in the place of `OD_extension_init`, for any object; the extension must live as long as the
  * dictionary. Its `write` is called for what the rules allow, with its own `object`; a NULL refuses access, as in the stack. An object that is another
- * view keeps its own reading and writing: extend the object that it is a view of. The flags that ask for a TPDO are those of the rules' extension,
- * which `OD_getFlagsPDO` and `OD_requestTPDO` find by the entry.
+ * view keeps its own reading and writing: extend the object that it is a view of. `OD_requestTPDO` works for each object that a TPDO can carry; where an
+ * object has no rules, the flags are those of the application's extension from then on.
  */
 ODR_t OD_extendBehind(OD_entry_t *entry, OD_extension_t *extension);
 
@@ -117,7 +117,7 @@ typedef struct {
     int64_t highShown;
 } OD_ruleView_t;
 
-/** An object with rules. */
+/** An object with rules; they ascend by their index. */
 typedef struct {
     uint16_t index;
     uint16_t firstRule;
@@ -133,16 +133,16 @@ typedef struct {
     uint64_t withoutNodeId;
 } OD_nodeIdValue_t;
 
-/** The extension of an object with rules. */
-typedef struct {
-    OD_extension_t extension;
-    const OD_ruledObject_t *object;
-    OD_extension_t *behind; /* the application's; NULL: what is in memory */
-} OD_ruledExtension_t;
-
 extern const OD_ruledObject_t OD_ruledObjects[];
 extern const uint16_t OD_ruledObjectsCount;
-extern OD_ruledExtension_t OD_ruledExtensions[];
+/* The application's extension of each of them; NULL: what is in memory. */
+extern OD_extension_t *OD_extensionsBehind[];
+/* Objects that a TPDO can carry: each has flags of its own. */
+extern const uint16_t OD_requestable[];
+extern const uint16_t OD_requestableCount;
+#if OD_FLAGS_PDO_SIZE > 0
+extern OD_extension_t OD_requestableExtensions[];
+#endif
 extern const OD_rule_t OD_rules[];
 extern const OD_ruleLimits_t OD_ruleLimits[];
 extern const OD_ruleValues_t OD_ruleValues[];

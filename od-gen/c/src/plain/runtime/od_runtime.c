@@ -22,13 +22,6 @@
 #define FRAME_BITS (64U)
 #define NOTHING (0xFFFFFFFFUL)
 
-/** An entry, found. */
-typedef struct {
-    od_row_t row;
-    uint16_t place;
-    const od_attributes_t *shared;
-} found_t;
-
 /** What a row outside the table is: nothing that could be read or written. */
 static const od_attributes_t no_attributes = {
     OD_TYPE_DOMAIN, 0U, OD_PLACE_APPLICATION, OD_STORAGE_NO, 0U, 0U, OD_NONE, OD_NONE, OD_NONE};
@@ -66,10 +59,11 @@ int64_t od_get_signed(const uint8_t *bytes, size_t size)
 
 void od_put_unsigned(uint8_t *bytes, size_t size, uint64_t value)
 {
+    uint64_t rest = value;
     size_t at;
     for (at = 0U; at < size; at++) {
-        bytes[at] = (uint8_t)(value & 0xFFU);
-        value >>= 8;
+        bytes[at] = (uint8_t)(rest & 0xFFU);
+        rest >>= 8;
     }
 }
 
@@ -152,13 +146,13 @@ od_wide_t od_wide_of(int64_t number)
 od_wide_t od_wide_add(od_wide_t left, od_wide_t right)
 {
     uint64_t low = left.low + right.low;
-    uint64_t carry = (low < left.low) ? 1U : 0U;
+    uint64_t carry = (low < left.low) ? (uint64_t)1U : (uint64_t)0U;
     return od_wide(left.high + right.high + carry, low);
 }
 
 od_wide_t od_wide_subtract(od_wide_t left, od_wide_t right)
 {
-    uint64_t borrow = (left.low < right.low) ? 1U : 0U;
+    uint64_t borrow = (left.low < right.low) ? (uint64_t)1U : (uint64_t)0U;
     return od_wide(left.high - right.high - borrow, left.low - right.low);
 }
 
@@ -176,7 +170,7 @@ od_wide_t od_wide_multiply(od_wide_t left, od_wide_t right)
     return od_wide(high, left.low * right.low);
 }
 
-int od_wide_compare(od_wide_t left, od_wide_t right)
+int32_t od_wide_compare(od_wide_t left, od_wide_t right)
 {
     /* With the sign turned, the order is that of unsigned numbers. */
     uint64_t one = left.high ^ 0x8000000000000000ULL;
@@ -293,9 +287,10 @@ static size_t scaled(uint32_t hash, uint16_t length)
 
 static unsigned int bits_in(uint32_t word)
 {
+    uint32_t rest = word;
     unsigned int count = 0U;
-    while (word != 0U) {
-        word &= word - 1U;
+    while (rest != 0U) {
+        rest &= rest - 1U;
         count++;
     }
     return count;
@@ -321,9 +316,9 @@ static bool position_of(const od_table_t *table, uint16_t index, size_t *positio
     return true;
 }
 
-static found_t found_at(const od_table_t *table, od_row_t row)
+static od_found_t found_at(const od_table_t *table, od_row_t row)
 {
-    found_t found;
+    od_found_t found;
     found.row = row;
     found.place = 0U;
     found.shared = &no_attributes;
@@ -346,7 +341,7 @@ static const od_sparse_t *sparse_of(const od_table_t *table, od_row_t first)
     return NULL;
 }
 
-static uint32_t lookup(const od_table_t *table, uint16_t index, uint8_t sub, found_t *found)
+static uint32_t lookup(const od_table_t *table, uint16_t index, uint8_t sub, od_found_t *found)
 {
     size_t position;
     od_row_t first;
@@ -358,7 +353,7 @@ static uint32_t lookup(const od_table_t *table, uint16_t index, uint8_t sub, fou
     }
     first = table->objects[position];
     end = table->objects[position + 1U];
-    if ((uint32_t)first + sub < end) {
+    if (((uint32_t)first + sub) < end) {
         *found = found_at(table, (od_row_t)(first + sub));
         if ((found->shared->flags & OD_FLAG_SPARSE) == 0U) {
             return OD_OK;
@@ -376,20 +371,20 @@ static uint32_t lookup(const od_table_t *table, uint16_t index, uint8_t sub, fou
     return OD_ABORT_NO_SUB_INDEX;
 }
 
-static size_t offset_of(found_t found)
+static size_t offset_of(od_found_t found)
 {
     return ((size_t)found.shared->page << 16) | found.place;
 }
 
 static od_row_t holder_of(const od_table_t *table, od_row_t row)
 {
-    found_t found = found_at(table, row);
+    od_found_t found = found_at(table, row);
     return (found.shared->place == OD_PLACE_ALIAS) ? table->aliases[found.place].target : row;
 }
 
 uint32_t od_find(const od_table_t *table, uint16_t index, uint8_t sub, od_row_t *row)
 {
-    found_t found;
+    od_found_t found;
     uint32_t code = lookup(table, index, sub, &found);
     if (code == OD_OK) {
         *row = found.row;
@@ -406,7 +401,7 @@ bool od_id(const od_table_t *table, od_row_t row, uint16_t *index, uint8_t *sub)
     if (row >= table->entry_count) {
         return false;
     }
-    while ((position + 1U < table->object_count) && (table->objects[position + 1U] <= row)) {
+    while (((position + 1U) < table->object_count) && (table->objects[position + 1U] <= row)) {
         position++;
     }
     first = table->objects[position];
@@ -450,7 +445,7 @@ static size_t trimmed(uint8_t data_type, const uint8_t *bytes, size_t length)
             }
         }
     } else if (data_type == OD_TYPE_UNICODE_STRING) {
-        for (at = 0U; at + 1U < length; at += 2U) {
+        for (at = 0U; (at + 1U) < length; at += 2U) {
             if ((bytes[at] == 0U) && (bytes[at + 1U] == 0U)) {
                 return at;
             }
@@ -474,97 +469,26 @@ static void store_string(uint8_t *place, const od_attributes_t *shared, const ui
 
 /* Values. */
 
-/** Multiplies; false where the product leaves 64 bits. `factor` is positive. */
-static bool product_of(int64_t number, int64_t factor, int64_t *product)
-{
-    if ((number > INT64_MAX / factor) || (number < INT64_MIN / factor)) {
-        return false;
-    }
-    *product = number * factor;
-    return true;
-}
-
-/** The value of an alias before it is fitted into its type. */
-static int64_t rounded(const od_alias_t *alias, int64_t target)
-{
-    int64_t denominator = (int64_t)alias->denominator;
-    int64_t product;
-    int64_t floor;
-    int64_t rest;
-    bool up;
-    if (!product_of(target, (int64_t)alias->numerator, &product)) {
-        product = (target < 0) ? INT64_MIN : INT64_MAX;
-    }
-    if (denominator == 1) {
-        return product;
-    }
-    floor = product / denominator;
-    rest = product % denominator;
-    if (rest < 0) {
-        rest += denominator;
-        floor--;
-    }
-    switch (alias->rounding) {
-    case OD_ROUND_UP:
-        up = rest != 0;
-        break;
-    case OD_ROUND_ZERO:
-        up = (rest != 0) && (product < 0);
-        break;
-    case OD_ROUND_NEAREST:
-        up = ((rest * 2) > denominator) || (((rest * 2) == denominator) && (product >= 0));
-        break;
-    default:
-        up = false;
-        break;
-    }
-    return up ? floor + 1 : floor;
-}
-
-/** What an alias shows of a value of its target. */
-static uint32_t shown(const od_alias_t *alias, int64_t target, int64_t *value)
-{
-    unsigned int unused = 64U - integer_bits(alias->data_type);
-    bool with_sign = is_signed(alias->data_type);
-    int64_t high = INT64_MAX >> ((with_sign || (unused == 0U)) ? unused : (unused - 1U));
-    int64_t low = with_sign ? (-high - 1) : 0;
-    int64_t number = rounded(alias, target);
-    uint8_t bytes[8];
-    *value = 0;
-    if ((number >= low) && (number <= high)) {
-        *value = number;
-    } else if (alias->outside == OD_OUTSIDE_SATURATE) {
-        *value = (number < low) ? low : high;
-    } else if (alias->outside == OD_OUTSIDE_WRAP) {
-        size_t size = (size_t)integer_bits(alias->data_type) / 8U;
-        od_put_unsigned(bytes, 8U, (uint64_t)number);
-        *value = with_sign ? od_get_signed(bytes, size) : signed_of((uint64_t)number & (uint64_t)high);
-    } else {
-        return OD_ABORT_NOT_STORED;
-    }
-    return OD_OK;
-}
-
 /** The value of an entry that lies in the image or in the table. */
-static uint32_t held_value(const od_table_t *table, const uint8_t *image, found_t found, od_value_t *value)
+static uint32_t held_value(const od_table_t *table, const uint8_t *image, od_found_t found, od_value_t *value)
 {
     const od_attributes_t *shared = found.shared;
     size_t at = offset_of(found);
-    value->bytes = NULL;
+    value->held = NULL;
     value->length = 0U;
     if (shared->place == OD_PLACE_CONSTANT) {
-        value->bytes = &table->constants[at];
+        value->held = &table->constants[at];
         value->length = shared->size;
         return OD_OK;
     }
     if (shared->place != OD_PLACE_IMAGE) {
         return OD_ABORT_UNSUPPORTED_ACCESS;
     }
-    value->bytes = &image[at];
+    value->held = &image[at];
     value->length = shared->size;
     if (shared->data_type == OD_TYPE_OCTET_STRING) {
         size_t length = (size_t)od_get_unsigned(&image[at], 2U);
-        value->bytes = &image[at + 2U];
+        value->held = &image[at + 2U];
         value->length = (length < shared->size) ? length : shared->size;
     } else if (is_string(shared->data_type)) {
         value->length = trimmed(shared->data_type, &image[at], shared->size);
@@ -575,32 +499,14 @@ static uint32_t held_value(const od_table_t *table, const uint8_t *image, found_
 }
 
 /** The value of an entry, whatever its access. */
-static uint32_t value_of(const od_table_t *table, const uint8_t *image, found_t found, od_value_t *value)
+static uint32_t value_of(const od_table_t *table, const uint8_t *image, od_found_t found, od_value_t *value)
 {
-    const od_alias_t *alias;
-    found_t target;
-    int64_t number;
-    uint32_t code;
-    if (found.shared->place != OD_PLACE_ALIAS) {
-        return held_value(table, image, found, value);
-    }
-    alias = &table->aliases[found.place];
-    target = found_at(table, alias->target);
-    code = held_value(table, image, target, value);
-    if (code == OD_OK) {
-        number = ordered(target.shared->data_type, value->bytes, value->length);
-        code = shown(alias, number, &number);
-    }
-    if (code == OD_OK) {
-        od_put_signed(value->computed, 8U, number);
-        value->bytes = value->computed;
-        value->length = found.shared->size;
-    }
-    return code;
+    return (found.shared->place == OD_PLACE_ALIAS) ? table->views->shown(table, image, found, value)
+                                                   : held_value(table, image, found, value);
 }
 
 /** The present number of an entry; false where it has more than 32 bits, or is not a number. */
-static bool number_in(const od_table_t *table, const uint8_t *image, found_t found, uint32_t *number)
+static bool number_in(const od_table_t *table, const uint8_t *image, od_found_t found, uint32_t *number)
 {
     uint16_t size = found.shared->size;
     od_value_t value;
@@ -612,7 +518,7 @@ static bool number_in(const od_table_t *table, const uint8_t *image, found_t fou
     if (value_of(table, image, found, &value) != OD_OK) {
         return false;
     }
-    whole = od_get_unsigned(value.bytes, value.length);
+    whole = od_get_unsigned(od_value_bytes(&value), value.length);
     *number = (uint32_t)(whole & NOTHING);
     return whole <= NOTHING;
 }
@@ -621,7 +527,7 @@ static bool number_in(const od_table_t *table, const uint8_t *image, found_t fou
 static uint32_t current(
     const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub, uint32_t otherwise)
 {
-    found_t found;
+    od_found_t found;
     uint32_t number;
     if ((lookup(table, index, sub, &found) == OD_OK) && number_in(table, image, found, &number)) {
         return number;
@@ -631,22 +537,22 @@ static uint32_t current(
 
 static bool has_number(const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub)
 {
-    found_t found;
+    od_found_t found;
     uint32_t number;
     return (lookup(table, index, sub, &found) == OD_OK) && number_in(table, image, found, &number);
 }
 
 int64_t od_number(const od_table_t *table, const uint8_t *image, od_row_t row)
 {
-    found_t found = found_at(table, row);
+    od_found_t found = found_at(table, row);
     od_value_t value;
     if (value_of(table, image, found, &value) != OD_OK) {
         return 0;
     }
     if (found.shared->data_type == OD_TYPE_BOOLEAN) {
-        return (value.bytes[0] != 0U) ? 1 : 0;
+        return (od_value_bytes(&value)[0] != 0U) ? 1 : 0;
     }
-    return ordered(found.shared->data_type, value.bytes, value.length);
+    return ordered(found.shared->data_type, od_value_bytes(&value), value.length);
 }
 
 uint64_t od_count(const od_table_t *table, const uint8_t *image, od_row_t row)
@@ -655,7 +561,7 @@ uint64_t od_count(const od_table_t *table, const uint8_t *image, od_row_t row)
     if (value_of(table, image, found_at(table, row), &value) != OD_OK) {
         return 0U;
     }
-    return od_get_unsigned(value.bytes, value.length);
+    return od_get_unsigned(od_value_bytes(&value), value.length);
 }
 
 /* Checks of values. */
@@ -874,7 +780,7 @@ static uint32_t check_mapped(const od_table_t *table, uint8_t direction, uint32_
         }
         needed = dummy_bits[index];
     } else {
-        found_t found;
+        od_found_t found;
         if (lookup(table, index, (uint8_t)((parameter >> 8) & 0xFFU), &found) != OD_OK) {
             return OD_ABORT_NO_OBJECT;
         }
@@ -1021,9 +927,9 @@ uint32_t od_upload(
     od_value_t *value,
     const od_application_t *application)
 {
-    found_t found;
+    od_found_t found;
     uint32_t code = lookup(table, index, sub, &found);
-    value->bytes = NULL;
+    value->held = NULL;
     value->length = 0U;
     if (code != OD_OK) {
         return code;
@@ -1034,6 +940,14 @@ uint32_t od_upload(
     refresh(table, found.row, application);
     code = check_history(table, image, index, sub);
     return (code == OD_OK) ? value_of(table, image, found, value) : code;
+}
+
+uint32_t od_length(const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub, size_t *length)
+{
+    od_value_t value;
+    uint32_t code = od_read(table, image, index, sub, &value);
+    *length = (code == OD_OK) ? value.length : 0U;
+    return code;
 }
 
 uint32_t od_read(const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub, od_value_t *value)
@@ -1057,36 +971,8 @@ static uint32_t check_condition(const od_table_t *table, const uint8_t *image, c
     return OD_OK;
 }
 
-/** What the target of an alias gets: exactly the value, or none. */
-static uint32_t aliased(
-    const od_table_t *table, found_t found, const uint8_t *data, size_t length, found_t *holder, uint8_t buffer[8])
-{
-    const od_alias_t *alias = &table->aliases[found.place];
-    int64_t numerator = (int64_t)alias->numerator;
-    int64_t number = ordered(found.shared->data_type, data, length);
-    const od_attributes_t *target;
-    uint8_t sign;
-    size_t at;
-    *holder = found_at(table, alias->target);
-    target = holder->shared;
-    if (!product_of(number, (int64_t)alias->denominator, &number) || ((number % numerator) != 0)) {
-        return OD_ABORT_INVALID_VALUE;
-    }
-    od_put_signed(buffer, 8U, number / numerator);
-    sign = (is_signed(target->data_type) && (target->size > 0U) && (target->size <= 8U)
-            && ((buffer[target->size - 1U] & 0x80U) != 0U))
-        ? 0xFFU
-        : 0U;
-    for (at = target->size; at < 8U; at++) {
-        if (buffer[at] != sign) {
-            return OD_ABORT_INVALID_VALUE;
-        }
-    }
-    return check_value(table, target, buffer, target->size);
-}
-
 /** Puts the value of an entry of the image, which has been checked. */
-static void put(uint8_t *image, found_t holder, const uint8_t *data, size_t length)
+static void put(uint8_t *image, od_found_t holder, const uint8_t *data, size_t length)
 {
     size_t place = offset_of(holder);
     size_t at;
@@ -1112,7 +998,7 @@ static void swap(uint8_t *image, size_t place, uint8_t *bytes, size_t length)
 
 /** Whether every condition that holds now would hold with the value. */
 static bool stays_consistent(
-    const od_table_t *table, uint8_t *image, found_t holder, const uint8_t *data, size_t length)
+    const od_table_t *table, uint8_t *image, od_found_t holder, const uint8_t *data, size_t length)
 {
     uint8_t kept[8];
     size_t at;
@@ -1141,14 +1027,16 @@ static bool stays_consistent(
 static uint32_t write_row(
     const od_table_t *table,
     uint8_t *image,
-    found_t found,
+    od_found_t found,
     const uint8_t *data,
     size_t length,
     const od_application_t *application,
     bool consistent)
 {
     uint8_t buffer[8];
-    found_t holder = found;
+    const uint8_t *held = data;
+    size_t held_length = length;
+    od_found_t holder = found;
     bool is_command = false;
     uint32_t code = check_lock(found.shared, application);
     if (code == OD_OK) {
@@ -1161,15 +1049,15 @@ static uint32_t write_row(
         return OD_ABORT_READ_ONLY;
     }
     if (found.shared->place == OD_PLACE_ALIAS) {
-        code = aliased(table, found, data, length, &holder, buffer);
-        data = buffer;
-        length = holder.shared->size;
+        code = table->views->held(table, found, data, length, &holder, buffer);
+        held = buffer;
+        held_length = holder.shared->size;
         if ((code == OD_OK) && (holder.shared->place != OD_PLACE_IMAGE)) {
             code = OD_ABORT_INTERNAL;
         }
     }
     if ((code == OD_OK) && (holder.row < table->first_application_row)) {
-        code = check_communication(table, image, holder.row, data, length, REPLACES_PRESENT, &is_command);
+        code = check_communication(table, image, holder.row, held, held_length, REPLACES_PRESENT, &is_command);
     }
     if (code == OD_OK) {
         code = check_condition(table, image, found.shared);
@@ -1177,14 +1065,14 @@ static uint32_t write_row(
     if ((code == OD_OK) && (holder.row != found.row)) {
         code = check_condition(table, image, holder.shared);
     }
-    if ((code == OD_OK) && consistent && !stays_consistent(table, image, holder, data, length)) {
+    if ((code == OD_OK) && consistent && !stays_consistent(table, image, holder, held, held_length)) {
         code = OD_ABORT_INCOMPATIBLE;
     }
     if ((code == OD_OK) && (application != NULL) && (application->accept != NULL)) {
-        code = application->accept(application->context, holder.row, data, length);
+        code = application->accept(application->context, holder.row, held, held_length);
     }
     if ((code == OD_OK) && !is_command) {
-        put(image, holder, data, length);
+        put(image, holder, held, held_length);
         if ((application != NULL) && (application->changed != NULL)) {
             application->changed(application->context, holder.row);
         }
@@ -1202,7 +1090,7 @@ static uint32_t write_at(
     const od_application_t *application,
     bool consistent)
 {
-    found_t found;
+    od_found_t found;
     uint32_t code = lookup(table, index, sub, &found);
     if (code != OD_OK) {
         return code;
@@ -1239,7 +1127,7 @@ uint32_t od_write_consistent(
 
 /** A DOMAIN with an access; `refusal` says that it has not. */
 static uint32_t find_domain(
-    const od_table_t *table, uint16_t index, uint8_t sub, uint8_t access, uint32_t refusal, found_t *found)
+    const od_table_t *table, uint16_t index, uint8_t sub, uint8_t access, uint32_t refusal, od_found_t *found)
 {
     uint32_t code = lookup(table, index, sub, found);
     if (code != OD_OK) {
@@ -1260,7 +1148,7 @@ uint32_t od_upload_domain(
     size_t *length,
     const od_application_t *application)
 {
-    found_t found;
+    od_found_t found;
     uint32_t code = find_domain(table, index, sub, OD_FLAG_READ, OD_ABORT_WRITE_ONLY, &found);
     if (code != OD_OK) {
         return code;
@@ -1282,7 +1170,7 @@ uint32_t od_download_domain(
     bool last,
     const od_application_t *application)
 {
-    found_t found;
+    od_found_t found;
     uint32_t code = find_domain(table, index, sub, OD_FLAG_WRITE, OD_ABORT_READ_ONLY, &found);
     if (code == OD_OK) {
         code = check_lock(found.shared, application);
@@ -1367,7 +1255,7 @@ bool od_restore(
 }
 
 /** The bytes of an entry in the image, with what holds the length of a string; false for one that lies elsewhere. */
-static bool place_of(found_t found, uint32_t *start, uint32_t *end)
+static bool place_of(od_found_t found, uint32_t *start, uint32_t *end)
 {
     *start = (uint32_t)offset_of(found);
     *end = *start + found.shared->size + (uint32_t)prefix(found.shared->data_type);
@@ -1397,16 +1285,16 @@ static bool is_reset(const od_table_t *table, const uint8_t *image, uint32_t sta
 }
 
 /** Whether the value of now passes the checks of a write. */
-static bool can_have(const od_table_t *table, const uint8_t *image, found_t found)
+static bool can_have(const od_table_t *table, const uint8_t *image, od_found_t found)
 {
     od_value_t value;
     bool is_command = false;
     if ((value_of(table, image, found, &value) != OD_OK)
-        || (check_value(table, found.shared, value.bytes, value.length) != OD_OK)) {
+        || (check_value(table, found.shared, od_value_bytes(&value), value.length) != OD_OK)) {
         return false;
     }
     return (found.row >= table->first_application_row)
-        || (check_communication(table, image, found.row, value.bytes, value.length, REPLACES_NOTHING, &is_command)
+        || (check_communication(table, image, found.row, od_value_bytes(&value), value.length, REPLACES_NOTHING, &is_command)
             == OD_OK);
 }
 
@@ -1433,7 +1321,7 @@ bool od_correct_stored(
     bool is_corrected = false;
     od_row_t row;
     for (row = 0U; (region != NULL) && (row < table->entry_count); row++) {
-        found_t found = found_at(table, row);
+        od_found_t found = found_at(table, row);
         uint16_t index = 0U;
         uint8_t sub;
         uint32_t start;
@@ -1491,10 +1379,11 @@ static uint8_t mapping_of(
 
 /** What is mapped at a position, and its bits; OD_NONE as the row of a placeholder. */
 static bool mapped_at(
-    const od_table_t *table, const uint8_t *image, od_row_t mapping, uint32_t at, found_t *found, uint32_t *bits)
+    const od_table_t *table, const uint8_t *image, od_row_t mapping, uint32_t at, od_found_t *found, uint32_t *bits)
 {
+    const od_row_t row = (od_row_t)((at + mapping + 1U) & 0xFFFFU);
     uint32_t parameter;
-    if (!number_in(table, image, found_at(table, (od_row_t)(mapping + 1U + at)), &parameter)) {
+    if (!number_in(table, image, found_at(table, row), &parameter)) {
         return false;
     }
     *bits = parameter & 0xFFU;
@@ -1529,7 +1418,7 @@ uint8_t od_pack(
         return result;
     }
     for (at = 0U; at < count; at++) {
-        found_t found;
+        od_found_t found;
         uint32_t bits;
         od_value_t value;
         if (!mapped_at(table, image, mapping, at, &found, &bits) || (found.row == OD_NONE)) {
@@ -1543,7 +1432,7 @@ uint8_t od_pack(
             return OD_PDO_NOT_MAPPED;
         }
         if (filled < FRAME_BITS) {
-            word |= (od_get_unsigned(value.bytes, value.length) & mask_of(bits)) << filled;
+            word |= (od_get_unsigned(od_value_bytes(&value), value.length) & mask_of(bits)) << filled;
         }
         filled += bits;
     }
@@ -1567,7 +1456,7 @@ uint8_t od_unpack(
     size_t bytes;
     uint64_t rest;
     uint32_t at;
-    found_t found;
+    od_found_t found;
     uint32_t bits;
     uint8_t result = mapping_of(table, image, RECEIVE, number, &mapping, &count);
     received->too_long = false;
@@ -1577,7 +1466,8 @@ uint8_t od_unpack(
         return result;
     }
     for (at = 0U; at < count; at++) {
-        if (!number_in(table, image, found_at(table, (od_row_t)(mapping + 1U + at)), &bits)) {
+        const od_row_t row = (od_row_t)((at + mapping + 1U) & 0xFFFFU);
+        if (!number_in(table, image, found_at(table, row), &bits)) {
             return OD_PDO_NOT_MAPPED;
         }
         sum += bits & 0xFFU;
@@ -1615,15 +1505,63 @@ uint8_t od_unpack(
     return OD_PDO_OK;
 }
 
+uint16_t od_receiver(const od_table_t *table, const uint8_t *image, uint16_t can_id, uint16_t after)
+{
+    uint16_t at;
+    for (at = 0U; at < table->pdo_count; at++) {
+        const od_pdo_t *pdo = &table->pdos[at];
+        uint32_t cob_id;
+        if ((pdo->index < TRANSMIT) && (pdo->index >= ((uint32_t)RECEIVE + after))
+            && number_in(table, image, found_at(table, pdo->cob_id), &cob_id)
+            && ((cob_id & (NOT_VALID | EXTENDED)) == 0U) && ((cob_id & CAN_ID) == can_id)) {
+            return (uint16_t)((pdo->index - RECEIVE) + 1U);
+        }
+    }
+    return 0U;
+}
+
+uint8_t od_pdo_settings(
+    const od_table_t *table, const uint8_t *image, uint16_t index, od_pdo_settings_t *settings)
+{
+    uint8_t result;
+    settings->cob_id = current(table, image, index, 1U, NOT_VALID);
+    settings->transmission_type = (uint8_t)(current(table, image, index, 2U, OD_TRANSMISSION_PROFILE) & 0xFFU);
+    settings->inhibit_time = (uint16_t)(current(table, image, index, 3U, 0U) & 0xFFFFU);
+    settings->event_timer = (uint16_t)(current(table, image, index, 5U, 0U) & 0xFFFFU);
+    settings->sync_start = (uint8_t)(current(table, image, index, 6U, 0U) & 0xFFU);
+    if (!has_number(table, image, index, 1U)) {
+        result = OD_PDO_MISSING;
+    } else if ((settings->cob_id & NOT_VALID) != 0U) {
+        result = OD_PDO_NOT_VALID;
+    } else {
+        result = OD_PDO_OK;
+    }
+    return result;
+}
+
+bool od_is_due(uint8_t transmission_type, bool has_event, uint32_t syncs)
+{
+    bool is_due;
+    if (transmission_type == OD_TRANSMISSION_ACYCLIC) {
+        is_due = has_event && (syncs > 0U);
+    } else if (transmission_type <= OD_TRANSMISSION_CYCLIC_MOST) {
+        is_due = syncs >= transmission_type;
+    } else {
+        /* Those in between wait for a remote frame, or are reserved. */
+        is_due = has_event && (transmission_type >= OD_TRANSMISSION_MANUFACTURER);
+    }
+    return is_due;
+}
+
 /* What generated code calls. */
 
 od_bytes_t od_get_string(const od_table_t *table, const uint8_t *image, od_row_t row)
 {
-    found_t found = found_at(table, row);
+    od_found_t found = found_at(table, row);
     od_value_t value;
     od_bytes_t bytes = {NULL, 0U};
     if (is_string(found.shared->data_type) && (value_of(table, image, found, &value) == OD_OK)) {
-        bytes.bytes = value.bytes;
+        bytes.bytes = value.held;
         bytes.length = value.length;
     }
     return bytes;
@@ -1631,7 +1569,7 @@ od_bytes_t od_get_string(const od_table_t *table, const uint8_t *image, od_row_t
 
 bool od_set_string(const od_table_t *table, uint8_t *image, od_row_t row, const uint8_t *bytes, size_t length)
 {
-    found_t found = found_at(table, row);
+    od_found_t found = found_at(table, row);
     const od_attributes_t *shared = found.shared;
     if (!is_string(shared->data_type) || (shared->place != OD_PLACE_IMAGE)
         || (check_value(table, shared, bytes, length) != OD_OK)
@@ -1642,10 +1580,131 @@ bool od_set_string(const od_table_t *table, uint8_t *image, od_row_t row, const 
     return true;
 }
 
+/* Aliases. */
+
+/** Multiplies; false where the product leaves 64 bits. `factor` is positive. */
+static bool product_of(int64_t number, int64_t factor, int64_t *product)
+{
+    if ((number > INT64_MAX / factor) || (number < INT64_MIN / factor)) {
+        return false;
+    }
+    *product = number * factor;
+    return true;
+}
+
+/** The value of an alias before it is fitted into its type. */
+static int64_t rounded(const od_alias_t *alias, int64_t target)
+{
+    int64_t denominator = (int64_t)alias->denominator;
+    int64_t product;
+    int64_t floor;
+    int64_t rest;
+    bool up;
+    if (!product_of(target, (int64_t)alias->numerator, &product)) {
+        product = (target < 0) ? INT64_MIN : INT64_MAX;
+    }
+    if (denominator == 1) {
+        return product;
+    }
+    floor = product / denominator;
+    rest = product % denominator;
+    if (rest < 0) {
+        rest += denominator;
+        floor--;
+    }
+    switch (alias->rounding) {
+    case OD_ROUND_UP:
+        up = rest != 0;
+        break;
+    case OD_ROUND_ZERO:
+        up = (rest != 0) && (product < 0);
+        break;
+    case OD_ROUND_NEAREST:
+        up = ((rest * 2) > denominator) || (((rest * 2) == denominator) && (product >= 0));
+        break;
+    default:
+        up = false;
+        break;
+    }
+    return up ? (floor + 1) : floor;
+}
+
+/** What an alias shows of a value of its target. */
+static uint32_t shown(const od_alias_t *alias, int64_t target, int64_t *value)
+{
+    unsigned int unused = 64U - integer_bits(alias->data_type);
+    bool with_sign = is_signed(alias->data_type);
+    int64_t high = INT64_MAX >> ((with_sign || (unused == 0U)) ? unused : (unused - 1U));
+    int64_t low = with_sign ? (-high - 1) : 0;
+    int64_t number = rounded(alias, target);
+    uint8_t bytes[8];
+    *value = 0;
+    if ((number >= low) && (number <= high)) {
+        *value = number;
+    } else if (alias->outside == OD_OUTSIDE_SATURATE) {
+        *value = (number < low) ? low : high;
+    } else if (alias->outside == OD_OUTSIDE_WRAP) {
+        size_t size = (size_t)integer_bits(alias->data_type) / 8U;
+        od_put_unsigned(bytes, 8U, (uint64_t)number);
+        *value = with_sign ? od_get_signed(bytes, size) : signed_of((uint64_t)number & (uint64_t)high);
+    } else {
+        return OD_ABORT_NOT_STORED;
+    }
+    return OD_OK;
+}
+
+/** What an alias shows, as it travels. */
+static uint32_t shown_value(const od_table_t *table, const uint8_t *image, od_found_t found, od_value_t *value)
+{
+    const od_alias_t *alias = &table->aliases[found.place];
+    od_found_t target = found_at(table, alias->target);
+    int64_t number = 0;
+    uint32_t code = held_value(table, image, target, value);
+    if (code == OD_OK) {
+        code = shown(alias, ordered(target.shared->data_type, value->held, value->length), &number);
+    }
+    if (code == OD_OK) {
+        od_put_signed(value->computed, 8U, number);
+        value->held = NULL;
+        value->length = found.shared->size;
+    }
+    return code;
+}
+
+/** What the target of an alias gets: exactly the value, or none. */
+static uint32_t aliased(
+    const od_table_t *table, od_found_t found, const uint8_t *data, size_t length, od_found_t *holder, uint8_t buffer[8])
+{
+    const od_alias_t *alias = &table->aliases[found.place];
+    int64_t numerator = (int64_t)alias->numerator;
+    int64_t number = ordered(found.shared->data_type, data, length);
+    const od_attributes_t *target;
+    uint8_t sign;
+    size_t at;
+    *holder = found_at(table, alias->target);
+    target = holder->shared;
+    if (!product_of(number, (int64_t)alias->denominator, &number) || ((number % numerator) != 0)) {
+        return OD_ABORT_INVALID_VALUE;
+    }
+    od_put_signed(buffer, 8U, number / numerator);
+    sign = (is_signed(target->data_type) && (target->size > 0U) && (target->size <= 8U)
+            && ((buffer[target->size - 1U] & 0x80U) != 0U))
+        ? 0xFFU
+        : 0U;
+    for (at = target->size; at < 8U; at++) {
+        if (buffer[at] != sign) {
+            return OD_ABORT_INVALID_VALUE;
+        }
+    }
+    return check_value(table, target, buffer, target->size);
+}
+
+const od_views_t od_views = {shown_value, aliased};
+
 bool od_get_view(const od_table_t *table, const uint8_t *image, od_row_t row, int64_t *value)
 {
-    found_t found = found_at(table, row);
-    found_t target;
+    od_found_t found = found_at(table, row);
+    od_found_t target;
     od_value_t held;
     *value = 0;
     if (found.shared->place != OD_PLACE_ALIAS) {
@@ -1655,15 +1714,15 @@ bool od_get_view(const od_table_t *table, const uint8_t *image, od_row_t row, in
     if (value_of(table, image, target, &held) != OD_OK) {
         return false;
     }
-    return shown(&table->aliases[found.place], ordered(target.shared->data_type, held.bytes, held.length), value)
+    return shown(&table->aliases[found.place], ordered(target.shared->data_type, od_value_bytes(&held), held.length), value)
         == OD_OK;
 }
 
 bool od_set_view(const od_table_t *table, uint8_t *image, od_row_t row, int64_t value)
 {
-    found_t found = found_at(table, row);
+    od_found_t found = found_at(table, row);
     const od_alias_t *alias;
-    found_t holder;
+    od_found_t holder;
     uint8_t bytes[8];
     size_t size;
     int64_t number;

@@ -222,6 +222,34 @@ typedef struct {
 
 typedef struct od_table od_table_t;
 
+/** A value as it travels: see below. */
+typedef struct od_value od_value_t;
+
+/** An entry, found in a table. */
+typedef struct {
+    od_row_t row;
+    uint16_t place;
+    const od_attributes_t *shared;
+} od_found_t;
+
+/**
+ * What reads and writes aliases. Only tables that have some refer to it: a linker leaves it out of other programs.
+ */
+typedef struct {
+    /** What an alias shows. */
+    uint32_t (*shown)(const od_table_t *table, const uint8_t *image, od_found_t found, od_value_t *value);
+    /** What the entry of an alias gets, and that entry. */
+    uint32_t (*held)(
+        const od_table_t *table,
+        od_found_t found,
+        const uint8_t *data,
+        size_t length,
+        od_found_t *holder,
+        uint8_t buffer[8]);
+} od_views_t;
+
+extern const od_views_t od_views;
+
 /** Whether a condition holds, of the values in an image. */
 typedef bool od_condition_t(const od_table_t *table, const uint8_t *image);
 
@@ -251,6 +279,8 @@ struct od_table {
     const od_attributes_t *attributes;
     const od_sparse_t *sparse;
     const od_alias_t *aliases;
+    /** NULL without aliases. */
+    const od_views_t *views;
     const od_limits_t *limits;
     const od_values_t *values;
     const uint8_t *constants;
@@ -274,12 +304,21 @@ struct od_table {
     uint8_t dummies;
 };
 
-/** A value as it travels. The bytes lie in the image, in the table or in `computed`. */
-typedef struct {
-    const uint8_t *bytes;
+/**
+ * A value as it travels; `od_value_bytes` gives its bytes. It can be copied: `held` is in the image or in the table, and NULL where
+ * the value is in `computed`.
+ */
+struct od_value {
+    const uint8_t *held;
     size_t length;
     uint8_t computed[8];
-} od_value_t;
+};
+
+/** The bytes of a value, as long as the value, the image and the table are there. */
+static inline const uint8_t *od_value_bytes(const od_value_t *value)
+{
+    return (value->held != NULL) ? value->held : value->computed;
+}
 
 /**
  * The application's part in accesses over the bus. A function that is NULL agrees; NULL in place of
@@ -328,6 +367,9 @@ uint32_t od_upload(
     uint8_t sub,
     od_value_t *value,
     const od_application_t *application);
+
+/** How many bytes an SDO client reads there now. The most that an entry can have is `size` of its attributes. */
+uint32_t od_length(const od_table_t *table, const uint8_t *image, uint16_t index, uint8_t sub, size_t *length);
 
 /**
  * Writes an entry as an SDO client does. The checks come in the order of CiA 301's servers: the entry
@@ -459,6 +501,49 @@ uint8_t od_unpack(
     size_t length,
     od_received_t *received,
     const od_application_t *application);
+
+/**
+ * The number of the first RPDO above `after` that takes frames with this identifier of 11 bits, by the COB-IDs of now; 0 for none. Begin with 0; several may
+ * take one.
+ */
+uint16_t od_receiver(const od_table_t *table, const uint8_t *image, uint16_t can_id, uint16_t after);
+
+/* Transmission types (CiA 301 tables 72 and 75). */
+
+/** At a SYNC, after an event. */
+#define OD_TRANSMISSION_ACYCLIC (0U)
+/** 1 to 240: at each SYNC of this number. */
+#define OD_TRANSMISSION_CYCLIC_MOST (240U)
+/** On a remote frame, with the values of the last SYNC. */
+#define OD_TRANSMISSION_REMOTE_SYNC (252U)
+/** On a remote frame. */
+#define OD_TRANSMISSION_REMOTE (253U)
+/** On an event that the manufacturer decides. */
+#define OD_TRANSMISSION_MANUFACTURER (254U)
+/** On an event that the device profile decides. */
+#define OD_TRANSMISSION_PROFILE (255U)
+
+/** The communication parameters of a PDO as they are now; 0 for those that it does not have. */
+typedef struct {
+    /** With its bits 29 to 31. */
+    uint32_t cob_id;
+    uint8_t transmission_type;
+    /** In steps of 0.1 ms. */
+    uint16_t inhibit_time;
+    /** In ms. */
+    uint16_t event_timer;
+    uint8_t sync_start;
+} od_pdo_settings_t;
+
+/** Those of the PDO at 1400h to 15FFh or 1800h to 19FFh: OD_PDO_OK, OD_PDO_NOT_VALID or OD_PDO_MISSING. */
+uint8_t od_pdo_settings(
+    const od_table_t *table, const uint8_t *image, uint16_t index, od_pdo_settings_t *settings);
+
+/**
+ * Whether a TPDO is to be sent now: by its transmission type, by whether there was an event (a changed value, the event timer), and by the number of SYNCs
+ * since it was sent, with the present one; 0 between SYNCs. The inhibit time is up to the caller.
+ */
+bool od_is_due(uint8_t transmission_type, bool has_event, uint32_t syncs);
 
 /* What generated code calls. */
 
@@ -615,7 +700,7 @@ od_wide_t od_wide_add(od_wide_t left, od_wide_t right);
 od_wide_t od_wide_subtract(od_wide_t left, od_wide_t right);
 od_wide_t od_wide_multiply(od_wide_t left, od_wide_t right);
 /** Negative where left < right, 0 where they are equal, positive where left > right. */
-int od_wide_compare(od_wide_t left, od_wide_t right);
+int32_t od_wide_compare(od_wide_t left, od_wide_t right);
 
 #ifdef __cplusplus
 }
