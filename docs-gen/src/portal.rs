@@ -1,11 +1,11 @@
 //! The start page of several documents, with a search in all of them.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use od_spec::wording;
 use serde::Serialize;
 
-use crate::view::{self, Cell, Context, DeviceView, ObjectView, SearchWords, SystemView};
+use crate::view::{self, Context, DeviceView, SearchWords, SystemView};
 
 /// What the template of the start page sees.
 #[derive(Debug, Clone, Serialize)]
@@ -117,7 +117,7 @@ fn system_page(context: &Context) -> PageOfDocument {
 
 fn device_page(device: &DeviceView) -> PageOfDocument {
     let places = device.objects.iter().map(|object| PlaceOnPage {
-        words: words(object),
+        words: object.names.clone(),
         ..place(&object.anchor, &[&object.index, &object.name])
     });
     PageOfDocument {
@@ -131,13 +131,4 @@ fn device_page(device: &DeviceView) -> PageOfDocument {
 fn place(anchor: &str, title: &[&str]) -> PlaceOnPage {
     let parts: Vec<&str> = title.iter().copied().filter(|part| !part.is_empty()).collect();
     PlaceOnPage { anchor: anchor.to_owned(), title: parts.join(" "), words: String::new() }
-}
-
-/// The names of an object's entries, bits and values, each once.
-fn words(object: &ObjectView) -> String {
-    let entries = object.entries.iter().skip(1).map(|entry| entry.name.as_str());
-    let rows = object.types.iter().filter_map(|table| table.grids.first()).flat_map(|grid| grid.rows.iter());
-    let named = rows.filter_map(|row| row.cells.get(1)).map(|cell: &Cell| cell.text.as_str());
-    let mut seen = BTreeSet::new();
-    entries.chain(named).filter(|name| seen.insert(*name)).collect::<Vec<_>>().join(" ")
 }

@@ -110,8 +110,8 @@ for (const [name, { entries, pdos }] of Object.entries(pages)) {
       if (expected.amount !== null) same(seen.fields[2][1], expected.amount, `${here}: quantity`);
       if (expected.set !== null) same(seen.set, expected.set, `${here}: bits`);
       if (expected.machines !== null) {
-        const [states, commands] = expected.machines, told = (names) => names.every((text) => seen.lines.some((line) => line.includes(`: ${text}`)));
-        check(told(states) && told(commands), `${here}: ${seen.lines} instead of ${expected.machines}`);
+        const [states, commands] = expected.machines, shows = (names) => names.every((text) => seen.lines.some((line) => line.includes(`: ${text}`)));
+        check(shows(states) && shows(commands), `${here}: ${seen.lines} instead of ${expected.machines}`);
         if (states.length + commands.length === 0) check(one.ruled || seen.lines.length === 0, `${here}: ${seen.lines}`);
       }
       if (expected.taken === true) same(seen.refusal, null, `${here}: refused`);

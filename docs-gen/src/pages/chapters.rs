@@ -30,7 +30,7 @@ impl Source<'_> {
                     title: Cell::words(&section.title, self.language),
                     anchor: section_anchor(self.document(), plan.position),
                     level: plan.level,
-                    content: self.content(plan.position, tables, &self.told_of(chapter, at)),
+                    content: self.content(plan.position, tables, &self.devices_of_section(chapter, at)),
                     tables: tables.iter().flatten().cloned().collect(),
                 });
             }
@@ -56,7 +56,7 @@ impl Source<'_> {
 
     /// The devices that the texts of a section describe: those with the objects of its tables, or of the tables around
     /// it.
-    fn told_of(&self, chapter: &ChapterPlan, at: usize) -> Devices {
+    fn devices_of_section(&self, chapter: &ChapterPlan, at: usize) -> Devices {
         let mut around = at;
         loop {
             let sections = chapter.sections[below(chapter, around)].iter();
