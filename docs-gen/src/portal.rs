@@ -24,9 +24,16 @@ pub struct Portal {
     pub documents: Vec<Document>,
 }
 
-/// A document.
+/// A document in its languages.
 #[derive(Debug, Clone, Serialize)]
 pub struct Document {
+    /// Its editions; the page lists it by the first.
+    pub editions: Vec<Edition>,
+}
+
+/// A document in one language.
+#[derive(Debug, Clone, Serialize)]
+pub struct Edition {
     /// The folder of its pages.
     pub folder: String,
     /// Code of its language.
@@ -70,8 +77,8 @@ pub fn language_name(code: &str) -> String {
     if is_known { language.text("language", "name").to_owned() } else { code.to_owned() }
 }
 
-impl Document {
-    /// A document in a folder.
+impl Edition {
+    /// The edition in a folder.
     pub fn of(folder: &str, context: &Context) -> Self {
         Self {
             folder: folder.to_owned(),
@@ -112,7 +119,7 @@ fn system_page(context: &Context) -> PageOfDocument {
     }
     places.extend(context.appendices.iter().map(|appendix| place(appendix.page, &[&appendix.title])));
     let name = context.system.title.clone();
-    PageOfDocument { path: "index.html".to_owned(), name, places, search: Vec::new() }
+    PageOfDocument { path: "index.html".to_owned(), name, places, search: context.search.clone() }
 }
 
 fn device_page(device: &DeviceView) -> PageOfDocument {

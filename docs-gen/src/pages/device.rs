@@ -9,7 +9,6 @@ use od_spec::model::{
 
 use crate::language::Word;
 use crate::source::Source;
-use crate::source::outline::section_anchor;
 use crate::source::uses::Uses;
 use crate::tables::Columns;
 use crate::tables::bits::types_of;
@@ -420,7 +419,8 @@ impl Source<'_> {
         sections
             .map(|at| {
                 let text = self.heading(*at);
-                Place { text, anchor: section_anchor(self.document(), *at), page: self.outline.page_of(*at) }
+                let anchor = self.outline.section_anchor(*at).to_owned();
+                Place { text, anchor, page: self.outline.page_of(*at).to_owned() }
             })
             .collect()
     }

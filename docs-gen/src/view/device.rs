@@ -45,10 +45,10 @@ pub struct DeviceView {
     pub search: Vec<SearchWords>,
 }
 
-/// Words by which readers look for an object, an entry, a bit, a value or an error code, in all languages.
+/// Words by which readers look for an object, an entry, a bit, a value, an error code or a section, in all languages.
 #[derive(Debug, Clone, Serialize)]
 pub struct SearchWords {
-    /// Where links to it lead: `6064`, `6041.b7`, `error-8611`.
+    /// Where links to it lead: `6064`, `6041.b7`, `error-8611`, `section-4.3`.
     pub anchor: String,
     /// Words and phrases.
     pub phrases: Vec<String>,

@@ -66,6 +66,8 @@ pub struct Context {
     pub notation: Table,
     /// Every warning with its places: of the chapters, then of the objects; nothing where there are none.
     pub warnings: Option<Table>,
+    /// Words by which readers look for chapters and sections.
+    pub search: Vec<SearchWords>,
     /// Tables over the whole system: error codes, aliases, units, storage, constraints, errata, index of tables.
     pub appendices: Vec<Appendix>,
     /// Number of entries of all devices, which bounds the work of templates.

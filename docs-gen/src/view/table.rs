@@ -2,7 +2,10 @@
 
 use serde::Serialize;
 
-use crate::view::{AxisPicture, BitPicture, Cell, FlowPicture, HysteresisPicture, Ladder, LongList, MachinePicture, TimingPicture};
+use crate::view::{
+    AxisPicture, BitPicture, Cell, FlowPicture, HysteresisPicture, Ladder, LongList, MachinePicture,
+    TimingPicture,
+};
 
 /// A table, or several grids under one caption.
 #[derive(Debug, Clone, Serialize)]

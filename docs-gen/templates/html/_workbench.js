@@ -405,6 +405,6 @@
     }
   }, { rootMargin: "100%" });
   for (const chunk of document.querySelectorAll("main .chunk")) watcher.observe(chunk);
-  for (const [at, heading] of document.querySelectorAll("#pdos h3[id]").entries()) heading.append(" ", opener(heading.textContent, () => showPdo(at)));
+  for (const [at, heading] of document.querySelectorAll(".pdo h3").entries()) heading.append(" ", opener(heading.textContent, () => showPdo(at)));
   document.querySelector(".tools")?.append(button(source.dataset.bus, { id: "ui_bus", onclick: () => open(showNode) }));
 })();

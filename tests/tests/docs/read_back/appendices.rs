@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use od_spec::model::{AnyError, Constraint, Entry, EntryId, ErratumPlace, Storage, System, Text};
 use od_tests::compile_clean;
 
-use crate::{FULLMO, PITCH, pages};
 use super::cells::{decimal, entry_id, flat, reported};
 use super::objects;
+use crate::{FULLMO, PITCH, pages};
 
 /// All entries of all devices.
 fn entries(system: &System) -> impl Iterator<Item = (EntryId, &Entry)> {

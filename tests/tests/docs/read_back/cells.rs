@@ -1,6 +1,8 @@
 //! Cells read back into what they say.
 
-use od_spec::model::{Access, DataType, Entry, EntryId, Index, PdoMapping, Ratio, SubIndex, Text, Unit, Value};
+use od_spec::model::{
+    Access, DataType, Entry, EntryId, Index, PdoMapping, Ratio, SubIndex, Text, Unit, Value,
+};
 
 use crate::markdown::Table;
 
@@ -25,7 +27,7 @@ pub(super) fn default(entry: &Entry, cell: &str) -> Option<Value> {
 
 /// The raw value that a cell gives: after a physical value in brackets, before the name of an enum's or special value,
 /// or alone.
-pub(super) fn number(entry: &Entry, cell: &str) -> i128 {
+fn number(entry: &Entry, cell: &str) -> i128 {
     // A mapping parameter in its parts: 6040 00 10h.
     if let [index, sub, bits] = cell.split(' ').collect::<Vec<_>>()[..]
         && (index.len(), sub.len(), bits.len()) == (4, 2, 3)

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use od_spec::model::{Access, BitUsage, Edge, Entry, EntryId, ModeMeaning, Object, Ratio, Storage, TypeKind};
 
-use crate::markdown::Table;
 use super::cells::{access, default, flat, mapping, pattern, range};
+use crate::markdown::Table;
 
 /// Compares one row of a detail table with an entry.
 pub(super) fn check_entry(table: &Table, row: &[String], object: &Object, entry: &Entry) {

@@ -1,10 +1,13 @@
 //! Tables below figures: thresholds, switches, blocks, axes and sequences of events.
 
-use od_spec::model::{Axis, AxisReach, EntryId, Flow, LadderTable, Level, NamedBits, Ratio, SignalCarrier, Switch, SwitchBack, SwitchSide, System, Timing, Value};
+use od_spec::model::{
+    Axis, AxisReach, EntryId, Flow, LadderTable, Level, NamedBits, Ratio, SignalCarrier, Switch, SwitchBack,
+    SwitchSide, System, Timing, Value,
+};
 
-use crate::markdown::Table;
 use super::cells::{cell_if_there, decimal, default, entry_id, reported};
 use super::objects;
+use crate::markdown::Table;
 
 /// Indices and names of entries, one line each.
 fn listed(system: &System, entries: &[EntryId]) -> Vec<String> {

@@ -2,8 +2,8 @@
 
 use od_spec::model::{PatternBit, StateMachine};
 
-use crate::markdown::Table;
 use super::cells::flat;
+use crate::markdown::Table;
 
 fn pattern_cell(bit: PatternBit) -> &'static str {
     match bit {

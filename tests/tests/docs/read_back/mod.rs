@@ -6,19 +6,20 @@ mod dictionary;
 mod figures;
 mod machines;
 
-
 use std::sync::Arc;
 
 use od_spec::model::{
- Dictionary, Direction, EntryId, Index, NamedType, Object, PdoTarget, SubIndex, System, TableContent, Text, TypeKind, Value};
+    Dictionary, Direction, EntryId, Index, NamedType, Object, PdoTarget, SubIndex, System, TableContent,
+    Text, TypeKind, Value,
+};
 use od_tests::compile_clean;
 
-use cells::{flat, index, reported};
 use crate::markdown::Table;
 use crate::{EVERYTHING, FULLMO, PITCH, TWO, behind, pages};
+use cells::{flat, index, reported};
+use dictionary::{check_bits, check_entry, check_overview, check_values};
 use figures::{check_axis, check_flow, check_ladder, check_switches, check_timing};
 use machines::{check_commands, check_states, check_transitions};
-use dictionary::{check_bits, check_entry, check_overview, check_values};
 
 /// The devices with an object of an index, and that object.
 fn objects(system: &System, index: Index) -> Vec<(&Dictionary, &Object)> {
