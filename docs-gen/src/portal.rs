@@ -1,11 +1,11 @@
 //! The start page of several documents, with a search in all of them.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use od_spec::wording;
 use serde::Serialize;
 
-use crate::view::{self, Cell, Context, DeviceView, ObjectView, SearchWords, SystemView};
+use crate::view::{self, Context, DeviceView, SearchWords, SystemView};
 
 /// What the template of the start page sees.
 #[derive(Debug, Clone, Serialize)]
@@ -24,9 +24,16 @@ pub struct Portal {
     pub documents: Vec<Document>,
 }
 
-/// A document.
+/// A document in its languages.
 #[derive(Debug, Clone, Serialize)]
 pub struct Document {
+    /// Its editions; the page lists it by the first.
+    pub editions: Vec<Edition>,
+}
+
+/// A document in one language.
+#[derive(Debug, Clone, Serialize)]
+pub struct Edition {
     /// The folder of its pages.
     pub folder: String,
     /// Code of its language.
@@ -70,8 +77,8 @@ pub fn language_name(code: &str) -> String {
     if is_known { language.text("language", "name").to_owned() } else { code.to_owned() }
 }
 
-impl Document {
-    /// A document in a folder.
+impl Edition {
+    /// The edition in a folder.
     pub fn of(folder: &str, context: &Context) -> Self {
         Self {
             folder: folder.to_owned(),
@@ -112,12 +119,12 @@ fn system_page(context: &Context) -> PageOfDocument {
     }
     places.extend(context.appendices.iter().map(|appendix| place(appendix.page, &[&appendix.title])));
     let name = context.system.title.clone();
-    PageOfDocument { path: "index.html".to_owned(), name, places, search: Vec::new() }
+    PageOfDocument { path: "index.html".to_owned(), name, places, search: context.search.clone() }
 }
 
 fn device_page(device: &DeviceView) -> PageOfDocument {
     let places = device.objects.iter().map(|object| PlaceOnPage {
-        words: words(object),
+        words: object.names.clone(),
         ..place(&object.anchor, &[&object.index, &object.name])
     });
     PageOfDocument {
@@ -131,13 +138,4 @@ fn device_page(device: &DeviceView) -> PageOfDocument {
 fn place(anchor: &str, title: &[&str]) -> PlaceOnPage {
     let parts: Vec<&str> = title.iter().copied().filter(|part| !part.is_empty()).collect();
     PlaceOnPage { anchor: anchor.to_owned(), title: parts.join(" "), words: String::new() }
-}
-
-/// The names of an object's entries, bits and values, each once.
-fn words(object: &ObjectView) -> String {
-    let entries = object.entries.iter().skip(1).map(|entry| entry.name.as_str());
-    let rows = object.types.iter().filter_map(|table| table.grids.first()).flat_map(|grid| grid.rows.iter());
-    let named = rows.filter_map(|row| row.cells.get(1)).map(|cell: &Cell| cell.text.as_str());
-    let mut seen = BTreeSet::new();
-    entries.chain(named).filter(|name| seen.insert(*name)).collect::<Vec<_>>().join(" ")
 }

@@ -1,7 +1,7 @@
 //! The index of printed tables: what takes the place of each, and which of its facts differ on purpose.
 
 use od_spec::eds::MARK;
-use od_spec::model::{ErratumKind, ErratumPlace, TableContent, TableId};
+use od_spec::model::{ErratumKind, ErratumPlace, TableContent};
 use serde::Serialize;
 
 use crate::source::Source;
@@ -121,10 +121,10 @@ impl Source<'_> {
         for chapter in self.outline.chapters() {
             for plan in &chapter.sections {
                 let section = &self.document().sections[plan.position];
-                for (position, printed) in section.tables.iter().enumerate() {
-                    let id = TableId { section: plan.position, table: position };
-                    let Some(table) = self.table(id) else { continue };
-                    let columns = columns(&table);
+                let shown = &self.manual_tables()[plan.position];
+                for (printed, table) in section.tables.iter().zip(shown) {
+                    let Some(table) = table else { continue };
+                    let columns = columns(table);
                     let is_added = |key: &&&str| !printed.columns.iter().any(|column| column == *key);
                     let is_stated = !printed.columns.is_empty();
                     let added = columns.iter().filter(|_| is_stated).filter(is_added).copied().collect();

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use docs_gen::portal::{Document, Portal};
+use docs_gen::portal::{Document, Edition, Portal};
 use docs_gen::{Changed, Context, Format, Gaps, Options, Origin, Since, Templates, context};
 use minijinja::value::{Serde, Value};
 use od_spec::model::{Dictionary, Index, System};
@@ -173,7 +173,7 @@ fn take_shown(missing: &mut BTreeMap<&'static str, &str>, mut context: Context) 
             return;
         }
         let templates = Templates::new(Some(format), &[]).unwrap();
-        let portal = Portal::new(&context, vec![Document::of("a", &context)]);
+        let portal = Portal::new(&context, vec![Document { editions: vec![Edition::of("a", &context)] }]);
         let start_page = templates.print_portal(&portal).unwrap();
         for page in templates.print(&context).unwrap().into_iter().chain(start_page) {
             for key in marked(&page.text) {
@@ -294,7 +294,7 @@ fn every_fixed_text_is_in_the_language_files() {
         let context = context(&system, &Options { words, errata: true, ..Options::default() });
         for format in [Format::Markdown, Format::Html, Format::Print] {
             let templates = Templates::new(Some(format), &[]).unwrap();
-            let portal = Portal::new(&context, vec![Document::of("a", &context)]);
+            let portal = Portal::new(&context, vec![Document { editions: vec![Edition::of("a", &context)] }]);
             let start_page = templates.print_portal(&portal).unwrap();
             for page in templates.print(&context).unwrap().into_iter().chain(start_page) {
                 for line in outside_brackets(&shown(&page.text)).lines() {

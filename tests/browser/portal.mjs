@@ -37,6 +37,13 @@ await page.click("a[hreflang]");
 same(page.url().split("#")[0], first, "back in the first language");
 await page.click(".brand a");
 same(page.url(), address("index.html"), "the first link of a page");
+// A document is listed once, and each of its pages leads to the other language.
+same(await page.$$eval("main section.part", (all) => all.map((one) => one.id)), ["two/en", "twice/en"], "the documents that are listed");
+const others = await page.$$eval("main section.part a[hreflang]", (links) => links.map((link) => link.getAttribute("href")));
+for (const href of ["two/de/index.html", "two/de/two.html", "twice/de/index.html"]) check(others.includes(href), `no link to ${href}: ${others}`);
+await page.click("main section a[hreflang]");
+same(await page.locator("html").getAttribute("lang"), "de", "the other language of a document");
+await page.goto(address("index.html"));
 await page.click("main section h2 a");
 check(await page.locator("main h1").count() === 1, "a document opens from the start page");
 await browser.close();

@@ -110,8 +110,8 @@ for (const [name, { entries, pdos }] of Object.entries(pages)) {
       if (expected.amount !== null) same(seen.fields[2][1], expected.amount, `${here}: quantity`);
       if (expected.set !== null) same(seen.set, expected.set, `${here}: bits`);
       if (expected.machines !== null) {
-        const [states, commands] = expected.machines, told = (names) => names.every((text) => seen.lines.some((line) => line.includes(`: ${text}`)));
-        check(told(states) && told(commands), `${here}: ${seen.lines} instead of ${expected.machines}`);
+        const [states, commands] = expected.machines, shows = (names) => names.every((text) => seen.lines.some((line) => line.includes(`: ${text}`)));
+        check(shows(states) && shows(commands), `${here}: ${seen.lines} instead of ${expected.machines}`);
         if (states.length + commands.length === 0) check(one.ruled || seen.lines.length === 0, `${here}: ${seen.lines}`);
       }
       if (expected.taken === true) same(seen.refusal, null, `${here}: refused`);
@@ -128,7 +128,7 @@ for (const [name, { entries, pdos }] of Object.entries(pages)) {
 
   for (const pdo of pdos) {
     const found = await page.evaluate(({ name, frames }) => {
-      const heading = [...document.querySelectorAll("#pdos h3[id]")].find((one) => one.textContent.trim() === name);
+      const heading = [...document.querySelectorAll(".pdo h3")].find((one) => one.textContent.trim() === name);
       heading.querySelector(".bench").click();
       const panel = document.getElementById("ui_bench"), inputs = [...panel.querySelectorAll("div > .line > input")], [bytes, ...fields] = inputs;
       const type = (input, text) => { input.value = text; input.dispatchEvent(new Event("input", { bubbles: true })); };
@@ -242,11 +242,11 @@ for (const [name, { entries }] of Object.entries(pages)) {
   // axe looks through the whole page for each answer: what the panels do not name is taken away.
   await page.fill("#ui_search", "");
   await page.evaluate((kept) => {
-    for (const card of document.querySelectorAll("article.object, .part:not(#pdos), #ui_contents details")) if (!kept.includes(card.id)) card.remove();
-    for (const one of document.querySelectorAll("#pdos > :not(h2, h3)")) one.remove();
+    for (const card of document.querySelectorAll("article.object, .part:not(#pdos, .pdo), #ui_contents details")) if (!kept.includes(card.id)) card.remove();
+    for (const one of document.querySelectorAll("#pdos > :not(h2), .pdo > :not(h3)")) one.remove();
   }, [id, ...(pdos[0]?.places ?? []).map(([index]) => hex(index, 4))]);
   await page.evaluate(axe);
-  const openers = [opener, page.locator("#ui_bus"), ...(pdos.length > 0 ? [page.locator("#pdos h3 .bench").first()] : [])];
+  const openers = [opener, page.locator("#ui_bus"), ...(pdos.length > 0 ? [page.locator(".pdo h3 .bench").first()] : [])];
   for (const [width, colorScheme] of [[1280, "light"], [1280, "dark"], [390, "light"], [390, "dark"]]) {
     await page.setViewportSize({ width, height: 800 });
     await page.emulateMedia({ colorScheme });

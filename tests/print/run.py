@@ -252,7 +252,7 @@ class Manual:
         self.figures(table)
         for grid in grids:
             for row in grid["rows"]:
-                for cell in self.told(grid, row):
+                for cell in self.printed_cells(grid, row):
                     for part in cell["parts"]:
                         self.has(part["text"], f"a cell of {table['anchor']}")
         caption = squeezed(f"{self.context['words']['table']} {table['number']} {table['title']['text']}")
@@ -274,7 +274,7 @@ class Manual:
         """A block diagram or a sequence of events: below it is only what it does not say itself."""
         return bool(grid["flow"] or grid["timing"])
 
-    def told(self, grid: dict, row: dict) -> list[dict]:
+    def printed_cells(self, grid: dict, row: dict) -> list[dict]:
         """The cells of a row that are printed."""
         keys = [column["key"] for column in grid["columns"]]
         cells = dict(zip(keys, row["cells"]))

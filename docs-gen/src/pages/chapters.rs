@@ -6,31 +6,26 @@ use od_spec::model::{self, Devices, Index, Prose, ProseKind, TableId, Text};
 
 use crate::options::Gaps;
 use crate::source::Source;
-use crate::source::outline::{ChapterPlan, section_anchor};
+use crate::source::outline::{ChapterPlan, SectionPlan};
 use crate::view::cell::object_anchor;
-use crate::view::{Cell, Chapter, Content, ObjectName, Section, Table};
+use crate::view::{Cell, Chapter, Content, ObjectName, SearchWords, Section, Table};
 
 impl Source<'_> {
     /// Chapters that have something to show, or have sections that do.
     pub(crate) fn chapter_views(&self) -> Vec<Chapter> {
-        let partial = self.devices.len() < self.system.devices.len();
         let mut chapters = Vec::new();
         for chapter in self.outline.chapters() {
-            let tables: Vec<Vec<Option<Table>>> =
-                chapter.sections.iter().map(|plan| self.tables_of(plan.position)).collect();
-            let is_shown = |at: usize| !partial || concerns(chapter, &tables, at);
+            let devices = self.devices_of_sections(chapter);
             let mut views: Vec<Section> = Vec::new();
-            for (at, (plan, tables)) in chapter.sections.iter().zip(&tables).enumerate() {
-                if !is_shown(at) {
-                    continue;
-                }
+            for (at, plan) in self.sections_shown(chapter) {
                 let section = &self.document().sections[plan.position];
+                let tables = &self.manual_tables()[plan.position];
                 views.push(Section {
                     number: section.number.clone(),
                     title: Cell::words(&section.title, self.language),
-                    anchor: section_anchor(self.document(), plan.position),
+                    anchor: self.outline.section_anchor(plan.position).to_owned(),
                     level: plan.level,
-                    content: self.content(plan.position, tables, &self.told_of(chapter, at)),
+                    content: self.content(plan.position, tables, &devices[at]),
                     tables: tables.iter().flatten().cloned().collect(),
                 });
             }
@@ -48,33 +43,63 @@ impl Source<'_> {
         chapters
     }
 
-    /// The tables of a section; `None` for each that the devices shown have nothing of.
-    fn tables_of(&self, section: usize) -> Vec<Option<Table>> {
-        let count = self.document().sections[section].tables.len();
-        (0..count).map(|table| self.table(TableId { section, table })).collect()
+    /// The sections of a chapter that concern the devices shown, each with its place in the chapter.
+    pub(crate) fn sections_shown<'c>(
+        &'c self,
+        chapter: &'c ChapterPlan,
+    ) -> impl Iterator<Item = (usize, &'c SectionPlan)> {
+        let partial = self.devices.len() < self.system.devices.len();
+        let is_shown =
+            move |at: usize| !partial || concerns(chapter, &self.manual_tables()[chapter.positions()], at);
+        chapter.sections.iter().enumerate().filter(move |(at, _)| is_shown(*at))
     }
 
-    /// The devices that the texts of a section describe: those with the objects of its tables, or of the tables around
-    /// it.
-    fn told_of(&self, chapter: &ChapterPlan, at: usize) -> Devices {
-        let mut around = at;
-        loop {
-            let sections = chapter.sections[below(chapter, around)].iter();
-            let tables = sections.flat_map(|plan| &self.document().sections[plan.position].tables);
+    /// The words by which readers look for sections that are shown.
+    pub(crate) fn search_words_of_sections(&self) -> Vec<SearchWords> {
+        let plans = self
+            .outline
+            .chapters()
+            .iter()
+            .flat_map(|chapter| self.sections_shown(chapter).map(|(_, plan)| plan));
+        let searched = plans.filter_map(|plan| {
+            let phrases: Vec<String> =
+                self.document().sections[plan.position].search.all().cloned().collect();
+            let anchor = self.outline.section_anchor(plan.position).to_owned();
+            (!phrases.is_empty()).then_some(SearchWords { anchor, phrases })
+        });
+        searched.collect()
+    }
+
+    /// The tables of each section of the manual, worked out once; `None` for each that the devices shown have nothing of.
+    pub(crate) fn manual_tables(&self) -> &[Vec<Option<Table>>] {
+        let of_section = |(section, one): (usize, &model::Section)| {
+            (0..one.tables.len()).map(|table| self.table(TableId { section, table })).collect()
+        };
+        self.tables.get_or_init(|| self.document().sections.iter().enumerate().map(of_section).collect())
+    }
+
+    /// The devices that the texts of each section of a chapter describe: those with the objects of its tables, or of the
+    /// tables around it.
+    fn devices_of_sections(&self, chapter: &ChapterPlan) -> Vec<Devices> {
+        let having = |plans: &[SectionPlan]| {
+            let tables = plans.iter().flat_map(|plan| &self.document().sections[plan.position].tables);
             let indices: BTreeSet<Index> =
                 tables.flat_map(|table| table.content.objects()).copied().collect();
-            let having = self.system.devices.iter();
-            let mut having = having
+            let mut having = self
+                .system
+                .devices
+                .iter()
                 .filter(|device| indices.iter().any(|index| device.objects.contains_key(index)))
                 .peekable();
-            if having.peek().is_some() {
-                return Devices::listed(having.map(|device| &device.key));
-            }
-            match above(chapter, around) {
-                Some(parent) => around = parent,
-                None => return Devices::All,
-            }
+            having.peek().is_some().then(|| Devices::listed(having.map(|device| &device.key)))
+        };
+        let mut devices: Vec<Devices> = Vec::new();
+        for (at, plan) in chapter.sections.iter().enumerate() {
+            let around = || plan.above.map_or(Devices::All, |above| devices[above].clone());
+            let own = having(chapter.below(at)).unwrap_or_else(around);
+            devices.push(own);
         }
+        devices
     }
 
     /// What is in a section, without the tables that are not shown.
@@ -95,8 +120,8 @@ impl Source<'_> {
             }
             model::Content::Prose(prose) => {
                 let number = (prose.kind == ProseKind::Warning).then(|| warnings.next()).flatten();
-                let anchor = number
-                    .map(|number| format!("{}-warning-{number}", section_anchor(self.document(), section)));
+                let anchor =
+                    number.map(|number| format!("{}-warning-{number}", self.outline.section_anchor(section)));
                 Some(Content { anchor: anchor.unwrap_or_default(), ..self.prose(prose, devices) })
             }
         };
@@ -144,28 +169,14 @@ impl Source<'_> {
 fn concerns(chapter: &ChapterPlan, tables: &[Vec<Option<Table>>], at: usize) -> bool {
     let mut around = at;
     loop {
-        let below = below(chapter, around);
-        let mut all = tables[below].iter().flatten().peekable();
+        let mut all = tables[around..chapter.sections[around].end].iter().flatten().peekable();
         if all.peek().is_some() {
             return all.any(Option::is_some);
         }
-        match above(chapter, around) {
+        match chapter.sections[around].above {
             Some(parent) => around = parent,
             // There is no table at all: it concerns everyone.
             None => return true,
         }
     }
-}
-
-/// A section and those below it.
-fn below(chapter: &ChapterPlan, at: usize) -> std::ops::Range<usize> {
-    let level = chapter.sections[at].level;
-    let next = chapter.sections[at + 1..].iter().position(|plan| plan.level <= level);
-    at..next.map_or(chapter.sections.len(), |next| at + 1 + next)
-}
-
-/// The section that a section is in.
-fn above(chapter: &ChapterPlan, at: usize) -> Option<usize> {
-    let level = chapter.sections[at].level;
-    chapter.sections[..at].iter().rposition(|plan| plan.level < level)
 }

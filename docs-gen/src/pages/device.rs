@@ -9,7 +9,6 @@ use od_spec::model::{
 
 use crate::language::Word;
 use crate::source::Source;
-use crate::source::outline::section_anchor;
 use crate::source::uses::Uses;
 use crate::tables::Columns;
 use crate::tables::bits::types_of;
@@ -245,7 +244,7 @@ impl Source<'_> {
             let title = Cell::plain(format!("{}: {}", self.word(word), named.name));
             Table { about: self.text(&named.about), ..Table::unnumbered(anchor, kind, title, vec![grid]) }
         });
-        let types = types.collect();
+        let types: Vec<Table> = types.collect();
         let entries = object.entries.iter().map(|entry| self.entry(device, object, entry)).collect();
         let table = Table::unnumbered(
             format!("{}-entries", object_anchor(object.index)),
@@ -254,7 +253,7 @@ impl Source<'_> {
             vec![self.detail(device, object)],
         );
         let (data_types, units) = (among(object, |entry| entry.data_type.name()), units(object));
-        let mut view = ObjectView {
+        ObjectView {
             index: object.index.to_string(),
             anchor: object_anchor(object.index),
             name: object.name.clone(),
@@ -265,6 +264,7 @@ impl Source<'_> {
             notes: self.notes(device, object),
             changed: self.changed(device, object).unwrap_or_default(),
             table,
+            names: names(object, &types),
             types,
             used: uses.of(object.index),
             places: self.places(object),
@@ -280,10 +280,7 @@ impl Source<'_> {
             units,
             stored: among(object, |entry| self.storage_word(entry.stored).to_owned()),
             mappable: mappable(object),
-            search: String::new(),
-        };
-        view.search = search(object, &view);
-        view
+        }
     }
 
     /// An entry as plain facts.
@@ -422,7 +419,8 @@ impl Source<'_> {
         sections
             .map(|at| {
                 let text = self.heading(*at);
-                Place { text, anchor: section_anchor(self.document(), *at), page: self.outline.page_of(*at) }
+                let anchor = self.outline.section_anchor(*at).to_owned();
+                Place { text, anchor, page: self.outline.page_of(*at).to_owned() }
             })
             .collect()
     }
@@ -489,22 +487,11 @@ fn mappable(object: &Object) -> Vec<String> {
         .collect()
 }
 
-/// What a search looks at: index, names, meanings, bits and values.
-fn search(object: &Object, view: &ObjectView) -> String {
-    let mut text = format!("{} 0x{:04X} {}", view.index, object.index.0, object.name);
-    let mut add = |words: &str| {
-        if !words.is_empty() {
-            text.push(' ');
-            text.push_str(words);
-        }
-    };
-    add(&view.about.text);
-    for grid in view.types.iter().chain([&view.table]).flat_map(|table| &table.grids) {
-        let wanted =
-            |at: &usize| matches!(grid.columns[*at].key, "name" | "description" | "meaning" | "error_codes");
-        for row in grid.rows.iter() {
-            (0..grid.columns.len()).filter(wanted).for_each(|at| add(&row.cells[at].text));
-        }
-    }
-    text.to_lowercase()
+/// The names of an object's entries, bits and values, each once.
+fn names(object: &Object, types: &[Table]) -> String {
+    let entries = object.entries.iter().skip(1).map(|entry| entry.name.as_str());
+    let rows = types.iter().filter_map(|table| table.grids.first()).flat_map(|grid| grid.rows.iter());
+    let of_types = rows.filter_map(|row| row.cells.get(1)).map(|cell| cell.text.as_str());
+    let mut seen = BTreeSet::new();
+    entries.chain(of_types).filter(|name| seen.insert(*name)).collect::<Vec<_>>().join(" ")
 }

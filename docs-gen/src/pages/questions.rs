@@ -4,7 +4,6 @@ use od_spec::model::{self, Basis, Devices, Dictionary, EntryId, NamedType, Prose
 
 use crate::language::Word;
 use crate::source::Source;
-use crate::source::outline::section_anchor;
 use crate::tables::Columns;
 use crate::view::cell::{entry_anchor, object_anchor};
 use crate::view::{Cell, Row, Table};
@@ -31,7 +30,7 @@ impl Source<'_> {
         for chapter in self.outline.chapters() {
             for plan in &chapter.sections {
                 let section = &self.document().sections[plan.position];
-                let anchor = section_anchor(self.document(), plan.position);
+                let anchor = self.outline.section_anchor(plan.position);
                 for content in &section.content {
                     let model::Content::Prose(prose) = content else { continue };
                     if prose.kind != ProseKind::Gap {

@@ -7,6 +7,7 @@ pub(crate) mod series;
 mod stated;
 pub(crate) mod uses;
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
@@ -14,7 +15,7 @@ use std::rc::Rc;
 use od_spec::Library;
 use od_spec::model::{
     BitErrors, BitField, Departure, Devices, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace,
-    Fact, Index, Object, Part, Storage, System, SystemSource, Text, TypeKind, Unit,
+    Fact, Index, Object, Part, Storage, System, SystemSource, TableContent, TableId, Text, TypeKind, Unit,
 };
 use od_spec::running_text::{Written, indices};
 use od_spec::wording::{self, Wording, filled};
@@ -25,7 +26,10 @@ use crate::source::numbers::Numbers;
 use crate::source::outline::Outline;
 use crate::source::series::title;
 use crate::view::cell::{entry_anchor, object_anchor, slug};
-use crate::view::{Cell, Target};
+use crate::view::{Cell, Table, Target};
+
+/// The tables of each section of the manual; filled when they are first asked for.
+type Tables = OnceCell<Vec<Vec<Option<Table>>>>;
 
 /// What would otherwise be searched for again and again.
 #[derive(Default)]
@@ -38,6 +42,10 @@ struct Lookup {
     bit_errors: BTreeMap<String, Vec<EntryId>>,
     /// Entries with bits that show an error code.
     showing: BTreeMap<u16, Vec<EntryId>>,
+    /// Positions of the errata about each table of the manual, ascending.
+    errata_of_table: BTreeMap<TableId, Vec<usize>>,
+    /// The first table of the manual that shows an object in detail.
+    detailed: BTreeMap<Index, TableId>,
     /// Positions of the sections that show an object.
     places: BTreeMap<Index, Vec<usize>>,
     /// The names that libraries give objects of another name.
@@ -70,9 +78,10 @@ fn names_it_otherwise(object: &Object) -> bool {
     object.departures.contains(&Departure { part: Part::Object, fact: Fact::Name })
 }
 
-/// What the libraries of a device call those of its objects that it names otherwise.
-fn standard_names(device: &Dictionary) -> Vec<(Index, String)> {
-    let renamed: Vec<&Object> = device.objects.values().filter(|object| names_it_otherwise(object)).collect();
+/// What the libraries of devices call those of their objects that these name otherwise.
+fn standard_names(devices: &[&Dictionary]) -> BTreeMap<Index, String> {
+    let objects = devices.iter().flat_map(|device| device.objects.values());
+    let renamed: Vec<&Object> = objects.filter(|object| names_it_otherwise(object)).collect();
     let profiles: BTreeSet<&String> = renamed.iter().filter_map(|object| object.profile.as_ref()).collect();
     let libraries: Vec<Library> = profiles.into_iter().filter_map(|name| od_spec::library(name)).collect();
     let names = renamed.into_iter().filter_map(|object| {
@@ -117,6 +126,8 @@ pub(crate) struct Source<'a> {
     pub outline: Rc<Outline>,
     /// Where the numbers of its tables, figures and sections are.
     pub numbers: Rc<Numbers>,
+    /// The tables of the manual.
+    pub tables: Rc<Tables>,
     lookup: Rc<Lookup>,
 }
 
@@ -140,6 +151,7 @@ impl<'a> Source<'a> {
             with_page: devices.clone(),
             devices,
             numbers: Rc::default(),
+            tables: Rc::default(),
             lookup: Rc::default(),
         };
         source.lookup = Rc::new(source.look_up());
@@ -155,9 +167,15 @@ impl<'a> Source<'a> {
             homes,
             outline: Rc::clone(&self.outline),
             numbers: Rc::clone(&self.numbers),
+            tables: Rc::default(),
             lookup: Rc::clone(&self.lookup),
             ..*self
         }
+    }
+
+    /// The same, with what the printed manual leaves open said elsewhere.
+    pub(crate) fn with_gaps(&self, gaps: Gaps) -> Self {
+        Self { gaps, tables: Rc::default(), ..self.clone() }
     }
 
     /// What generated code calls an entry of a device.
@@ -201,7 +219,7 @@ impl<'a> Source<'a> {
             constraints: anchors(self.system.constraints.iter().map(title).collect::<Vec<_>>().iter()),
             ..Lookup::default()
         };
-        lookup.standard_names = self.devices.iter().flat_map(|device| standard_names(device)).collect();
+        lookup.standard_names = standard_names(&self.devices);
         for (id, _, entry) in self.devices.iter().flat_map(|device| device.entries()) {
             if let Some(unit) = &entry.unit {
                 lookup.in_unit.entry(unit.name.clone()).or_default().insert(id.index);
@@ -214,6 +232,9 @@ impl<'a> Source<'a> {
             let indices: BTreeSet<Index> = erratum.at.iter().map(|place| place.index()).collect();
             for index in indices {
                 lookup.errata.entry(index).or_default().push(position);
+            }
+            for table in erratum.tables.iter().collect::<BTreeSet<_>>() {
+                lookup.errata_of_table.entry(*table).or_default().push(position);
             }
         }
         for (id, _, entry) in self.devices.iter().flat_map(|device| device.entries()) {
@@ -249,7 +270,12 @@ impl<'a> Source<'a> {
             }
         }
         for (position, section) in self.document().sections.iter().enumerate() {
-            for table in &section.tables {
+            for (at, table) in section.tables.iter().enumerate() {
+                if let TableContent::Objects(list) = &table.content {
+                    for index in list {
+                        lookup.detailed.entry(*index).or_insert(TableId { section: position, table: at });
+                    }
+                }
                 for index in table.content.objects() {
                     let places = lookup.places.entry(*index).or_default();
                     if places.last() != Some(&position) {
@@ -275,6 +301,16 @@ impl<'a> Source<'a> {
     /// Entries with bits that show an error code.
     pub(crate) fn showing(&self, code: u16) -> &[EntryId] {
         self.lookup.showing.get(&code).map_or(&[], Vec::as_slice)
+    }
+
+    /// Positions of the errata whose place names a table of the manual.
+    pub(crate) fn errata_naming(&self, table: TableId) -> &[usize] {
+        self.lookup.errata_of_table.get(&table).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether this table of the manual is the first to show an object in detail.
+    pub(crate) fn details_first(&self, table: TableId, index: Index) -> bool {
+        self.lookup.detailed.get(&index) == Some(&table)
     }
 
     /// Positions of the sections whose tables show an object.

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 
+use od_spec::model::TableId;
 use od_spec::running_text::{Numbered, mentions};
 
 use crate::source::Source;
@@ -25,16 +26,24 @@ impl Source<'_> {
 
     /// What the chapters show of the devices that have a page. One number may be there twice: the first counts.
     fn numbers_shown(&self) -> BTreeMap<(Numbered, String), Target> {
-        let mut numbers = BTreeMap::new();
-        for chapter in self.of_all_pages().chapter_views() {
+        let (all, mut numbers) = (self.of_all_pages(), BTreeMap::new());
+        for chapter in all.outline.chapters() {
             let mut add = |kind, number: &str, anchor: String| {
                 let number = number.trim_end_matches('.').to_owned();
                 let page = chapter.page.clone();
                 numbers.entry((kind, number)).or_insert(Target { anchor, page });
             };
-            for section in chapter.sections {
-                add(Numbered::Section, &section.number, section.anchor);
-                for table in section.tables {
+            for (_, plan) in all.sections_shown(chapter) {
+                let section = &all.document().sections[plan.position];
+                let anchor = all.outline.section_anchor(plan.position).to_owned();
+                add(Numbered::Section, &section.number, anchor);
+                for (at, table) in section.tables.iter().enumerate() {
+                    if table.number.is_none() && table.figure.is_none() {
+                        continue;
+                    }
+                    let Some(table) = all.table(TableId { section: plan.position, table: at }) else {
+                        continue;
+                    };
                     if let Some(number) = table.number {
                         add(Numbered::Table, &number.to_string(), table.anchor);
                     }
@@ -52,6 +61,7 @@ impl Source<'_> {
         let mut all = self.clone();
         all.devices.clone_from(&self.with_page);
         all.numbers = Rc::new(OnceCell::from(BTreeMap::new()));
+        all.tables = Rc::default();
         all
     }
 }

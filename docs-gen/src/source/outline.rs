@@ -1,6 +1,7 @@
 //! The outline of a document: which page has which section, and where links to sections, tables and objects lead.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use od_spec::model::{Dictionary, Document, Figure, Index, Section, System, Table, TableContent, TableId};
 
@@ -40,49 +41,115 @@ pub(crate) struct SectionPlan {
     pub position: usize,
     /// 1 for a chapter, 2 for `4.1`, and so on.
     pub level: usize,
+    /// The section of the chapter that it is in.
+    pub above: Option<usize>,
+    /// Where those below it end.
+    pub end: usize,
 }
 
-/// The sections of a document by chapter.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Outline(Vec<ChapterPlan>);
+impl ChapterPlan {
+    fn new(page: String, first: SectionPlan) -> Self {
+        Self { page, sections: vec![first] }
+    }
+
+    /// Finds what each section is in, once all are there.
+    fn nest(&mut self) {
+        // The sections that the next one may be in, the innermost last.
+        let mut open: Vec<usize> = Vec::new();
+        for at in 0..self.sections.len() {
+            while let Some(last) = open.pop_if(|last| self.sections[*last].level >= self.sections[at].level) {
+                self.sections[last].end = at;
+            }
+            self.sections[at].above = open.last().copied();
+            open.push(at);
+        }
+        for last in open {
+            self.sections[last].end = self.sections.len();
+        }
+    }
+
+    /// A section and those below it.
+    pub(crate) fn below(&self, at: usize) -> &[SectionPlan] {
+        &self.sections[at..self.sections[at].end]
+    }
+
+    /// The positions of its sections in the document, which follow each other.
+    pub(crate) fn positions(&self) -> Range<usize> {
+        let first = self.sections.first().map_or(0, |plan| plan.position);
+        first..first + self.sections.len()
+    }
+}
+
+/// The sections of a document by chapter, and where links to them lead.
+#[derive(Debug, Clone)]
+pub(crate) struct Outline {
+    chapters: Vec<ChapterPlan>,
+    /// The anchor of each section.
+    anchors: Vec<String>,
+    /// The chapter that each section is in.
+    chapter_of: Vec<usize>,
+}
 
 impl Outline {
     /// The outline of a system's document.
     pub(crate) fn of(system: &System) -> Self {
         let mut chapters: Vec<ChapterPlan> = Vec::new();
-        for (position, section) in system.document.sections.iter().enumerate() {
-            let level = level(&system.document, position);
+        let mut chapter_of = Vec::new();
+        let mut taken: BTreeSet<String> = PAGES.into_iter().map(str::to_owned).collect();
+        taken.extend(system.devices.iter().map(|device| device.key.clone()));
+        for ((position, section), level) in
+            system.document.sections.iter().enumerate().zip(levels(&system.document))
+        {
+            let plan = SectionPlan { position, level, above: None, end: 0 };
             match chapters.last_mut() {
-                Some(chapter) if level > 1 => chapter.sections.push(SectionPlan { position, level }),
+                Some(chapter) if level > 1 => chapter.sections.push(plan),
                 _ => {
                     let title = section.title.get(system.language()).unwrap_or_default();
                     let page = short(&slug(&format!("{} {title}", section.number))).to_owned();
-                    let is_taken = |name: &str| {
-                        PAGES.contains(&name)
-                            || system.device(name).is_some()
-                            || chapters.iter().any(|chapter| chapter.page == name)
-                    };
-                    let page = if page.is_empty() || is_taken(&page) {
+                    let page = if page.is_empty() || taken.contains(&page) {
                         format!("chapter-{}", position + 1)
                     } else {
                         page
                     };
-                    chapters.push(ChapterPlan { page, sections: vec![SectionPlan { position, level }] });
+                    taken.insert(page.clone());
+                    chapters.push(ChapterPlan::new(page, plan));
                 }
             }
+            chapter_of.push(chapters.len() - 1);
         }
-        Self(chapters)
+        chapters.iter_mut().for_each(ChapterPlan::nest);
+        Self { chapters, anchors: section_anchors(&system.document), chapter_of }
     }
 
     /// The chapters, in order.
     pub(crate) fn chapters(&self) -> &[ChapterPlan] {
-        &self.0
+        &self.chapters
     }
 
     /// The page that has a section.
-    pub(crate) fn page_of(&self, section: usize) -> String {
-        let has = |chapter: &&ChapterPlan| chapter.sections.iter().any(|plan| plan.position == section);
-        self.0.iter().find(has).map_or_else(String::new, |chapter| chapter.page.clone())
+    pub(crate) fn page_of(&self, section: usize) -> &str {
+        &self.chapters[self.chapter_of[section]].page
+    }
+
+    /// The anchor of a section: its number, or else its title and, where another has the same, its place.
+    pub(crate) fn section_anchor(&self, section: usize) -> &str {
+        &self.anchors[section]
+    }
+
+    /// The anchor of a table: its number, or that of the figure that it is, or else its section and what fills it.
+    pub(crate) fn table_anchor(&self, document: &Document, id: TableId) -> String {
+        let section = &document.sections[id.section];
+        let table = &section.tables[id.table];
+        match (table.number, table.as_figure()) {
+            (Some(number), _) => format!("table-{number}"),
+            (None, Some(figure)) => figure_anchor(figure),
+            (None, None) => {
+                let has_neither = |table: &&Table| table.number.is_none() && table.as_figure().is_none();
+                let before = section.tables[..id.table].iter().filter(has_neither).count();
+                let anchor = format!("{}-{}", self.section_anchor(id.section), kind_of(&table.content));
+                if before == 0 { anchor } else { format!("{anchor}-{}", before + 1) }
+            }
+        }
     }
 
     /// The page, where pages are small, that shows each object in detail: that of the chapter that does so first, or else
@@ -102,7 +169,7 @@ impl Outline {
 
     /// The objects that chapters show in detail, in their order, with the page of the chapter.
     pub(crate) fn detailed(&self, document: &Document) -> impl Iterator<Item = (Index, &str)> {
-        self.0.iter().flat_map(move |ChapterPlan { page, sections }| {
+        self.chapters.iter().flat_map(move |ChapterPlan { page, sections }| {
             let tables = sections.iter().flat_map(|plan| &document.sections[plan.position].tables);
             let lists = tables.filter_map(|table| match &table.content {
                 TableContent::Objects(list) => Some(list),
@@ -113,33 +180,26 @@ impl Outline {
     }
 }
 
-/// Depth of a section: the parts of its number. One without a number that is inside a chapter belongs to it.
-fn level(document: &Document, position: usize) -> usize {
-    let sections = &document.sections;
-    let parts = |number: &str| number.split('.').filter(|part| !part.is_empty()).count();
-    let has_numbers = |sections: &[Section]| sections.iter().any(|section| !section.number.is_empty());
-    let next = sections[position..].iter().find(|section| !section.number.is_empty());
-    match parts(&sections[position].number) {
-        0 if has_numbers(&sections[..position]) && next.is_some_and(|next| parts(&next.number) > 1) => 2,
-        0 => 1,
-        parts => parts,
-    }
-}
-
-/// The anchor of a table: its number, or that of the figure that it is, or else its section and what fills it.
-pub(crate) fn table_anchor(document: &Document, id: TableId) -> String {
-    let section = &document.sections[id.section];
-    let table = &section.tables[id.table];
-    match (table.number, table.as_figure()) {
-        (Some(number), _) => format!("table-{number}"),
-        (None, Some(figure)) => figure_anchor(figure),
-        (None, None) => {
-            let has_neither = |table: &&Table| table.number.is_none() && table.as_figure().is_none();
-            let before = section.tables[..id.table].iter().filter(has_neither).count();
-            let anchor = format!("{}-{}", section_anchor(document, id.section), kind_of(&table.content));
-            if before == 0 { anchor } else { format!("{anchor}-{}", before + 1) }
+/// Depth of each section: the parts of its number. One without a number that is inside a chapter belongs to it.
+fn levels(document: &Document) -> Vec<usize> {
+    let parts = |section: &Section| section.number.split('.').filter(|part| !part.is_empty()).count();
+    // Of a section without a number, whether the next one with a number is below a chapter: from the end.
+    let (mut levels, mut is_below) = (Vec::new(), false);
+    for section in document.sections.iter().rev() {
+        levels.push(if section.number.is_empty() { usize::from(is_below) * 2 } else { parts(section) });
+        if !section.number.is_empty() {
+            is_below = parts(section) > 1;
         }
     }
+    levels.reverse();
+    let first = document.sections.iter().position(|section| !section.number.is_empty());
+    for (at, level) in levels.iter_mut().enumerate() {
+        // What comes before the first chapter is a chapter of its own.
+        if *level == 0 || first.is_none_or(|first| at < first) {
+            *level = 1;
+        }
+    }
+    levels
 }
 
 /// The anchor of a figure.
@@ -147,8 +207,8 @@ pub(crate) fn figure_anchor(figure: &Figure) -> String {
     format!("figure-{}", figure.number)
 }
 
-/// The anchor of a section: its number, or else its title and, where another has the same, its place.
-pub(crate) fn section_anchor(document: &Document, section: usize) -> String {
+/// The anchors of all sections.
+fn section_anchors(document: &Document) -> Vec<String> {
     let name_of = |section: &Section| match section.number.as_str() {
         "" => slug(section.title.iter().next().map_or("", |(_, title)| title)),
         // Dots stay, so that the anchor of a number looks like it.
@@ -156,13 +216,13 @@ pub(crate) fn section_anchor(document: &Document, section: usize) -> String {
             .trim_end_matches('.')
             .replace(|sign: char| !(sign.is_alphanumeric() || matches!(sign, '.' | '_')), "-"),
     };
-    let name = name_of(&document.sections[section]);
-    let before = document.sections[..section].iter().filter(|earlier| name_of(earlier) == name).count();
-    if before == 0 && !name.is_empty() {
-        format!("section-{name}")
-    } else {
-        format!("section-{name}-no-{section}")
-    }
+    let mut before: BTreeSet<String> = BTreeSet::new();
+    let anchor = |(at, section): (usize, &Section)| {
+        let name = name_of(section);
+        let is_new = before.insert(name.clone());
+        if is_new && !name.is_empty() { format!("section-{name}") } else { format!("section-{name}-no-{at}") }
+    };
+    document.sections.iter().enumerate().map(anchor).collect()
 }
 
 /// What fills a table, as the specification's key says it.

@@ -20,7 +20,7 @@ use od_spec::model::{
 
 use crate::language::Word;
 use crate::source::Source;
-use crate::source::outline::{figure_anchor, kind_of, table_anchor};
+use crate::source::outline::{figure_anchor, kind_of};
 use crate::view::{Align, Cell, Column, FigureView, Grid, Mark, Row, Table};
 
 /// Columns, each with what it holds, its title and its alignment.
@@ -146,7 +146,7 @@ impl Source<'_> {
             TableContent::Overview(list) => vec![self.overview(list)],
             TableContent::Objects(list) => {
                 let warned = self.warned_in(id.section);
-                self.details(list, |index| self.first_detail(id, index), &warned)
+                self.details(list, |index| self.details_first(id, index), &warned)
             }
             TableContent::Bits(BitTable { named_type, masks }) => {
                 let named = self.shown_type(named_type)?;
@@ -202,7 +202,7 @@ impl Source<'_> {
             title: self.text(&figure.title),
         });
         Some(Table {
-            anchor: table_anchor(self.document(), id),
+            anchor: self.outline.table_anchor(self.document(), id),
             number: table.number,
             title: self.text(&table.title),
             figure,
@@ -245,24 +245,12 @@ impl Source<'_> {
 
     /// Marks of the errata whose place names the table.
     pub(crate) fn errata_of_table(&self, id: TableId) -> Vec<Mark> {
-        let errata = self.system.errata.iter().enumerate();
-        errata
-            .filter(|(_, erratum)| self.is_about(erratum) && erratum.tables.contains(&id))
-            .map(|(at, _)| self.mark(at, ""))
-            .collect()
+        self.errata_naming(id).iter().map(|at| self.mark(*at, "")).collect()
     }
 
     /// The mark of an erratum in a column.
     pub(crate) fn mark(&self, at: usize, column: &'static str) -> Mark {
         Mark { number: at + 1, kind: self.wording.erratum_kind(self.system.errata[at].kind), column }
-    }
-
-    /// Whether this table is the first of the document to show the object in detail.
-    fn first_detail(&self, id: TableId, index: Index) -> bool {
-        let mut tables = self.document().tables().filter(
-            |(.., table)| matches!(&table.content, TableContent::Objects(list) if list.contains(&index)),
-        );
-        tables.next().is_some_and(|(first, ..)| first == id)
     }
 
     /// A state machine, if a device shown has it.

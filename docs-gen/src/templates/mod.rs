@@ -227,8 +227,13 @@ impl Templates {
         let of_page =
             context! { page, appendices => nothing.clone(), devices => nothing, origin => (), siblings };
         let variables = context! { ..of_page, ..Value::from(Serde(portal)) };
-        let places: usize =
-            portal.documents.iter().flat_map(|one| &one.pages).map(|one| one.places.len()).sum();
+        let places: usize = portal
+            .documents
+            .iter()
+            .flat_map(|one| &one.editions)
+            .flat_map(|one| &one.pages)
+            .map(|one| one.places.len())
+            .sum();
         Ok(self.pages(&[(template, path, variables)], bounds::steps(places))?.pop())
     }
 

@@ -1,13 +1,77 @@
 //! Pieces of text that know what is a link and which language they are in.
 
 use od_spec::model::{EntryId, Index, Text};
-use serde::ser::{Serialize, SerializeStruct, Serializer};
+use serde::Serialize;
+use serde::ser::{SerializeStruct, Serializer};
 
 use crate::language::Language;
-use crate::view::{Cell, Part, PartKind, Span, Stated};
-
 /// Lists of up to so many parts take no more memory than they need; longer ones grow in larger steps.
 const FEW: usize = 8;
+
+/// The contents of a cell, or another piece of text. A document has very many, most of them one plain text.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Cell {
+    /// The text alone; lines are separated by line breaks.
+    pub text: String,
+    /// What its parts are; nothing where it is one plain text, or empty.
+    pub(crate) spans: Vec<Span>,
+    /// Who says it.
+    pub stated: Stated,
+}
+
+/// Who says what is in a [`Cell`].
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stated {
+    /// The maker: the printed manual, or what follows from it.
+    #[default]
+    Manual,
+    /// A standard, and the maker does not.
+    Standard,
+    /// Neither: it is assumed.
+    Assumed,
+}
+
+/// What a part of a [`Cell`] is, and where it ends in the text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Span {
+    pub end: usize,
+    pub kind: PartKind,
+    pub anchor: Box<str>,
+    pub page: Box<str>,
+    pub language: Box<str>,
+}
+
+/// A part of a [`Cell`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Part<'a> {
+    /// What it is.
+    pub kind: PartKind,
+    /// The text; empty for a break.
+    pub text: &'a str,
+    /// Anchor that a link leads to.
+    pub anchor: &'a str,
+    /// Page that has the anchor, where pages are small.
+    pub page: &'a str,
+    /// Language of the text, where it is not that of the document.
+    pub language: &'a str,
+}
+
+/// What a [`Part`] is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PartKind {
+    /// Running text.
+    Text,
+    /// Emphasized text.
+    Strong,
+    /// To be typed or read as it is.
+    Code,
+    /// A link.
+    Link,
+    /// A new line.
+    Break,
+}
 
 impl Cell {
     /// A plain text.

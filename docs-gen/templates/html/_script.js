@@ -62,7 +62,7 @@
   const phrasesOf = new Map(sought.filter(Boolean).map(([anchor, ...phrases]) => [anchor, phrases]));
   const links = new Map([...contents.querySelectorAll("a[href^='#']")].map((link) => [decodeURIComponent(link.hash.slice(1)), link.parentElement]));
   const items = [...document.querySelectorAll("article.object, .intro, .part")]
-    .map((card) => ({ card, link: links.get(card.id), shown: true, isObject: card.matches(".object") }));
+    .map((card) => ({ card, link: links.get(card.id), shown: true, isObject: card.matches(".object"), isPdo: card.matches(".pdo") }));
   const objects = items.filter((item) => item.isObject);
   const itemOf = new Map(items.map((item) => [item.card, item]));
   // Groups of cards, and of lines of the contents, that the browser lays out together.
@@ -78,7 +78,7 @@
 
   // What a column's words are worth in the order of results, where it is not that of a fact.
   const FIELD_OF_COLUMN = {
-    name: NAME, title: NAME, code: NAME, abbreviation: NAME, description: TEXT, meaning: TEXT, reaction: TEXT, event: TEXT, action: TEXT,
+    name: NAME, title: NAME, code: NAME, abbreviation: NAME, description: TEXT, meaning: TEXT, reaction: TEXT, event: TEXT, action: TEXT, warning: TEXT,
     place: ERRATUM, prints: ERRATUM, reads: ERRATUM, because: ERRATUM,
   };
   // Rows by their first column: what they are.
@@ -130,7 +130,8 @@
       }
       if (inHead) continue;
       const isMain = item.isObject || (row.id && (objects.length === 0 || kind === "error"));
-      const place = { item, row, kind, facts: factsOf(row), later: !isMain, called: label || name < 0 ? "" : row.cells[name].textContent };
+      const code = kind === "error" ? wordsOf(row.cells[0].textContent)[0] : undefined;
+      const place = { item, row, kind, code, facts: factsOf(row), later: !isMain, called: label || name < 0 ? "" : row.cells[name].textContent };
       index.place(place, fields, phrasesOf.get(row.id), kind === "entry" ? NAME : FACT);
     }
   };
@@ -144,9 +145,24 @@
       index.place({ item, row: table, kind: item.isObject ? "type" : "table", title }, fields);
     }
     for (const one of table.children) {
-      if (one.matches(".object-head")) index.place({ item, row: one, kind: "object" }, [[one.textContent], [], [], []]);
+      if (one.matches(".object-head")) {
+        const about = one.querySelector(".about")?.textContent ?? "", title = clean(one.textContent.slice(0, one.textContent.length - about.length));
+        index.place({ item, row: one, kind: "object", title }, [[title], [], [about], []]);
+      }
       else for (const own of one.querySelectorAll(":scope > table")) readRows(item, own);
     }
+  };
+
+  // A PDO is asked for by what it is, by what is mapped into it, and by its settings.
+  const readPdo = (item, title) => {
+    const { card } = item, settings = [...card.querySelectorAll("td:first-child")].map((cell) => cell.textContent);
+    const fields = [[title, words.pdo, words.mapping, ...settings], [], [], []];
+    for (const mapped of card.querySelectorAll(".used text, .narrow a")) fields[NAME].push(mapped.textContent);
+    for (const link of card.querySelectorAll("a[href^='#']")) fields[FACT].push(...phrasesOf.get(decodeURIComponent(link.getAttribute("href").slice(1))) ?? []);
+    for (const part of card.querySelectorAll("svg title, svg text")) fields[TEXT].push(part.textContent);
+    for (const part of card.querySelectorAll("td:not(:first-child)")) fields[FACT].push(part.textContent);
+    for (const about of card.querySelectorAll(":scope > p")) fields[TEXT].push(about.textContent);
+    index.place({ item, row: null, kind: "pdo", title, named: [title] }, fields);
   };
 
   const readCard = (item) => {
@@ -159,6 +175,7 @@
     item.uses = card.querySelectorAll(":scope > dl dd[data-kind]").length;
     item.title = item.isObject ? `${number} ${name}` : title;
     const fields = [[number, name], [small], [], []];
+    if (item.isPdo) return readPdo(item, title);
     // An appendix of a device is called like what its rows repeat.
     if (!item.isObject && objects.length > 0) [fields[NAME], fields[FACT]] = [[], [title]];
     for (const one of card.children) {
@@ -173,18 +190,10 @@
     for (const table of tables) if (table.dataset.columns?.startsWith("index")) readRows(item, table, fields);
     const head = { item, row: null, kind: item.isObject ? "object" : "part", title: item.title, later: views.has(card.id) };
     index.place(head, fields, phrasesOf.get(card.id));
-    let pdo = null;
     for (const one of card.children) {
       const own = tables.find((table) => table.parentNode === one);
       if (own && !own.dataset.columns?.startsWith("index")) readRows(item, own);
-      else if (one.matches("h3[id]") && one !== heading) {
-        pdo = [[one.textContent], [words.pdo, words.mapping], [], []];
-        // What follows up to the next heading belongs to it.
-        for (let next = one.nextElementSibling; next && !next.matches("h3"); next = next.nextElementSibling) {
-          for (const part of next.querySelectorAll("title, td")) pdo[FACT].push(part.textContent);
-        }
-        index.place({ item, row: one, kind: "pdo" }, pdo);
-      } else if (one.matches(".table") && !pdo) readTable(item, one);
+      else if (one.matches(".table")) readTable(item, one);
       else if (one.matches("dl")) {
         for (const line of one.querySelectorAll("dd")) {
           index.place({ item, row: line, kind: "use", title: item.title }, [[], [], [line.textContent], []]);

@@ -6,7 +6,7 @@
   // What is added by how a word fits: the same, another form of it, its beginning, its end, its middle.
   const SAME = 0, FORM = 1, BEGINNING = 2, END = 3, MIDDLE = 4;
   const GRADE = [0, 1, 3, 4, 16];
-  const SYNONYM = 1, COMPOUND = 1, SIMILAR = 4, SCATTERED = 24, SOUGHT = 1, HOLDS = 30, LATER = 5, READ_AT_ONCE = 200, MANY_PLACES = 8000;
+  const SYNONYM = 1, COMPOUND = 1, SIMILAR = 4, SCATTERED = 24, SOUGHT = 1, PARTLY = 20, ENOUGH = 8, HOLDS = 30, LATER = 5, READ_AT_ONCE = 200, MANY_PLACES = 8000;
   // What a word costs that a place does not have, at least and for each halving of the places that have it; how much worse than the best such a place may be.
   const MISSING = 28, PER_HALF = 4, MOST_MISSING = 64, NOUN = 12, AS_GOOD = 12;
   // A text of more words than this is a long one; a synonym has at most so many words after its first.
@@ -131,10 +131,11 @@
       this.cards.push(card);
     }
 
-    // Many cells say the same, so that their words are worked out once. A row is `called` by a fact; `phrases` are names that the page does not show.
+    // Many cells say the same, so that their words are worked out once. A row is `called` by a fact, and something may be `named` by less than all that counts as its
+    // name; `phrases` are names that the page does not show.
     place(place, fields, phrases = [], field = NAME) {
       const number = this.places.push(place) - 1;
-      place.names = [...fields[NAME], place.called].filter(Boolean).map((text) => this.#name(text));
+      place.names = (place.named ?? [...fields[NAME], place.called]).filter(Boolean).map((text) => this.#name(text));
       place.phrases = phrases.map((text) => this.#name(text));
       const all = fields.map((texts, at) => (at === field ? [...texts, ...phrases] : texts));
       place.fields = all.map((texts, at) => texts.filter(Boolean).map((text) => {
@@ -162,7 +163,8 @@
       let name = this.#names.get(text);
       if (!name) {
         const words = wordsOf(text);
-        this.#names.set(text, name = { name: words.join(""), meant: meantOf(words).join(""), words: words.map((word) => this.#number(word)), length: words.length });
+        const meant = meantOf(words), numbers = (list) => list.map((word) => this.#number(word));
+        this.#names.set(text, name = { name: words.join(""), meant: meant.join(""), parts: numbers(meant), words: numbers(words), length: words.length });
       }
       return name;
     }
@@ -380,7 +382,7 @@
         }
         if (found.length > 0) { words.push(asked[at]); meanings.push(found); } else unknown.push(asked[at]);
       }
-      const whole = [all.join(""), asked.join("")];
+      const whole = [all.join(""), asked.join(""), asked];
       const heavy = words.map((word) => (nouns.has(word) ? NOUN : 0));
       let found = yield* this.#rank(whole, words, heavy, meanings, allowed);
       if (!found.cards.some(({ missing }) => missing === 0)) {
@@ -455,9 +457,13 @@
             const rest = words.filter((_, word) => costs[word][at] < NEVER || costs[word][first] < COST[TEXT]).join("");
             if ([...place.names, ...place.phrases].some(({ name, meant }) => name === rest || meant === rest)) near = 9;
           }
-          // What is looked for by exactly these words is what they mean; the name of an error is worth that of an object, if the question begins it.
-          const isSought = near === SOUGHT || near === SOUGHT + LATER, isNamed = place.kind === "error" && near < HOLDS;
-          const counted = isSought ? 0 : Math.min(sum, isNamed ? SYNONYM : Infinity), ranked = counted * 64 + near + (at === first ? 0 : 1);
+          const isPartly = lacks > 0 && place.phrases.some((one) => this.#holds(one, asked));
+          if (isPartly) near = Math.min(near, PARTLY);
+          // What is looked for by exactly these words is what they mean; the name of an error is worth that of an object, if the question begins it or has its code, and
+          // so is that of a PDO which has the rest; what is looked for by some of the words is nearly as good.
+          const isSought = near === SOUGHT || near === SOUGHT + LATER, isPdo = place.kind === "pdo" && near <= HOLDS && lacks === 0;
+          const isNamed = isPdo || (place.kind === "error" && near < HOLDS), most = isNamed ? SYNONYM : isPartly ? ENOUGH : Infinity;
+          const counted = isSought || isPdo ? 0 : Math.min(sum, most), ranked = counted * 64 + near + (at === first ? 0 : 1);
           if (ranked < rank) [best, least, rank, missing] = [at, counted, ranked, isSought ? 0 : lacks];
         }
         if (missing > 0 && costs.length > 1) {
@@ -526,8 +532,13 @@
       return places;
     }
 
+    // Whether the question has all words of a phrase of several.
+    #holds({ parts }, asked) {
+      return parts.length > 1 && parts.every((word) => asked.some((set) => set.has(word)));
+    }
+
     // How near a name is to the question, as a number below 64: the same, begins so, holds it, has all its words; what is put last (`later`) is.
-    #near(place, [whole, meant], asked) {
+    #near(place, [whole, meant, words], asked) {
       let near = 50;
       const far = ({ words, length }) => (asked.every((set) => words.some((word) => set.has(word))) ? 38 + Math.min(length, 7) : 50);
       for (const one of place.names) {
@@ -536,6 +547,8 @@
         if (own > 0 && one.name.includes(whole)) own = (one.name.startsWith(whole) ? 10 : HOLDS) + Math.min(one.length, 7);
         near = Math.min(near, own);
       }
+      // The code of an error is a name, too, and no other place is meant by it.
+      if (place.kind === "error" && place.code !== undefined && words.includes(place.code)) near = Math.min(near, HOLDS - 1);
       for (const one of place.phrases) {
         near = Math.min(near, one.meant === meant ? SOUGHT : far(one));
       }

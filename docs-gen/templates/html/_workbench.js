@@ -215,8 +215,8 @@
       const raw = bytes && values.raw(entry, bytes), refusal = bytes ? values.refusal(entry, bytes) : "";
       const text = bytes && values.text(entry, bytes);
       const needsNode = bytes === null && !isTyped && node === null && String(entry.initial).startsWith("$");
-      const told = [...(bytes ? lines(entry, raw) : []), ...(needsNode ? [phrase("default_of_node")] : [])];
-      result.replaceChildren(...(text === null ? [] : [element("b", { textContent: text })]), ...told.map((line) => element("span", { textContent: line })),
+      const notes = [...(bytes ? lines(entry, raw) : []), ...(needsNode ? [phrase("default_of_node")] : [])];
+      result.replaceChildren(...(text === null ? [] : [element("b", { textContent: text })]), ...notes.map((line) => element("span", { textContent: line })),
         ...(refusal ? [element("span", { className: "wrong", textContent: refusal })] : []));
       if (names) names.value = bytes && named.some((value) => value.raw === raw) ? String(raw) : "";
       if (entry.fields) {
@@ -405,6 +405,6 @@
     }
   }, { rootMargin: "100%" });
   for (const chunk of document.querySelectorAll("main .chunk")) watcher.observe(chunk);
-  for (const [at, heading] of document.querySelectorAll("#pdos h3[id]").entries()) heading.append(" ", opener(heading.textContent, () => showPdo(at)));
+  for (const [at, heading] of document.querySelectorAll(".pdo h3").entries()) heading.append(" ", opener(heading.textContent, () => showPdo(at)));
   document.querySelector(".tools")?.append(button(source.dataset.bus, { id: "ui_bus", onclick: () => open(showNode) }));
 })();

@@ -9,8 +9,8 @@ pub use docs_gen::{
     Changed, CodeNames, Format, Gaps, InLanguage, Options, Origin, Siblings, Since, TemplateError, Templates,
 };
 
-use docs_gen::Context;
-use docs_gen::portal::{Document, Portal};
+use docs_gen::portal::{self, Document, Portal};
+use docs_gen::{Context, Documentation};
 use od_gen::{Artifact, Provenance, rust};
 use od_spec::model::{Devices, Dictionary, EntryId, System};
 use od_spec::source::SourceMap;
@@ -95,11 +95,15 @@ pub fn with_start_page(
     templates: &[Templates],
 ) -> Result<Vec<Artifact>, TemplateError> {
     let (mut list, mut documents, mut first) = (Vec::new(), Vec::new(), None);
-    for Edition { system, folder, options } in editions {
-        let (artifacts, context) = print(system, folder, options, templates)?;
-        list.extend(artifacts);
-        documents.extend(context.as_ref().map(|context| Document::of(folder, context)));
-        first = first.or(context);
+    for of_system in editions.chunk_by(|one, next| std::ptr::eq(one.system, next.system)) {
+        let mut document = Document { editions: Vec::new() };
+        for Edition { system, folder, options } in of_system {
+            let (artifacts, context) = print(system, folder, options, templates)?;
+            list.extend(artifacts);
+            document.editions.extend(context.as_ref().map(|context| portal::Edition::of(folder, context)));
+            first = first.or(context);
+        }
+        documents.push(document);
     }
     let Some(first) = first else { return Ok(list) };
     let portal = Portal::new(&first, documents);
@@ -120,20 +124,21 @@ fn print(
     options: &Options,
     templates: &[Templates],
 ) -> Result<(Vec<Artifact>, Option<Context>), TemplateError> {
+    let documentation = Documentation::new(system, options);
     let (mut list, mut last) = (Vec::new(), None);
     for templates in templates {
         let gaps = match (templates.format, options.gaps) {
             (Some(Format::Print), gaps) | (None, gaps @ Gaps::Gathered) => gaps,
             (Some(Format::Markdown | Format::Html) | None, _) => Gaps::InPlace,
         };
-        let context = docs_gen::context(system, &Options { gaps, ..options.clone() });
+        let context = documentation.context(gaps);
         for page in templates.print(&context)? {
             let path = format!("{folder}/{}", page.path);
             list.push(Artifact { path, bytes: page.text.into_bytes(), purpose: String::new() });
         }
         last = Some(context);
     }
-    let index = docs_gen::table_index(system, options);
+    let index = documentation.table_index();
     if !index.tables.is_empty() {
         let path = format!("{folder}/tables.json");
         let purpose = "what takes the place of each printed table".to_owned();

@@ -529,6 +529,7 @@ pub(crate) struct SectionDecl {
     pub number: Option<Name>,
     pub title: Words,
     pub content: Vec<PartDecl>,
+    pub search: Option<Spanned<Phrases>>,
 }
 
 /// A text or table of a section.

@@ -83,6 +83,7 @@ pub(super) fn section(r: Reader<'_>, diagnostics: &mut Diagnostics) -> SectionDe
         number: r.text("section"),
         title: r.words("title"),
         content: r.items("content").map(|item| part(item, diagnostics)).collect(),
+        search: Field::read(r, "search", diagnostics),
     }
 }
 

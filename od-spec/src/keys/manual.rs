@@ -1,6 +1,6 @@
 //! The printed manual.
 
-use super::shape::{DEVICES, INDICES, Key, Keys, NameOf, Shape};
+use super::shape::{DEVICES, INDICES, Key, Keys, NameOf, PHRASES, Shape};
 use super::table::keys;
 use crate::model::{Basis, Direction, ErratumKind, Unprinted};
 
@@ -33,6 +33,7 @@ keys! {
         "section": Shape::Text, "number, as printed; parts such as the imprint have none", "\"4.1.1\"";
         "title" required: Shape::Words, "heading";
         "content": Shape::List(&Shape::Map(&CONTENT)), "its texts and tables, in order";
+        "search": PHRASES, "words and phrases by which readers look for it, by language, where its title and texts have others", "{en: jog the axis, de: Achse von Hand fahren}";
     }
 }
 

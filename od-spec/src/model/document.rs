@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::{Axis, Date, Devices, Direction, EntryId, Fact, Flow, Index, Switch, Text, Timing};
+use super::{Axis, Date, Devices, Direction, EntryId, Fact, Flow, Index, Phrases, Switch, Text, Timing};
 
 /// The printed manual that a specification represents.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -70,6 +70,8 @@ pub struct Section {
     pub tables: Vec<Table>,
     /// What it contains, in order.
     pub content: Vec<Content>,
+    /// Words by which readers look for it.
+    pub search: Phrases,
 }
 
 /// What a section contains.
@@ -229,6 +231,46 @@ impl TableContent {
             | Self::Rows { .. }
             | Self::Glossary
             | Self::History => &[],
+        }
+    }
+
+    /// The keys of the columns that such a table can have in the documents, in their order.
+    #[must_use]
+    pub const fn columns(&self) -> &'static [&'static str] {
+        match self {
+            Self::Overview(_) => &["index", "object", "name", "type", "access", "mem", "device"],
+            Self::Objects(_) => &[
+                "index",
+                "sub",
+                "name",
+                "type",
+                "access",
+                "map",
+                "default",
+                "unit",
+                "range",
+                "stored",
+                "description",
+                "device",
+            ],
+            Self::Bits(_) => {
+                &["bit", "mask", "mnemonic", "name", "meaning", "active", "clamp", "priority", "error_codes"]
+            }
+            Self::Values(_) => &["value", "name", "meaning", "supported"],
+            Self::Errors(_) => &["code", "name", "device", "priority", "register", "description"],
+            Self::Reactions(_) => &["name", "code", "reaction"],
+            Self::States(_) => &["pattern", "state", "meaning"],
+            Self::Transitions(_) => &["transition", "from", "to", "event", "action"],
+            Self::Commands(_) => &["command", "bit", "send", "transitions", "meaning"],
+            Self::Ladder(_) => &["relation", "meaning", "default", "name", "object", "device"],
+            Self::Timing(_) => &["step", "event", "cause", "level"],
+            Self::Hysteresis(_) => &["switches", "on", "off", "on_from", "off_from"],
+            Self::Flow(_) => &["block", "from", "entries", "does"],
+            Self::Axis(_) => &["kind", "name", "from", "to", "entries", "does"],
+            Self::Pdos(_) => &["pdo", "cob_id", "enabled", "index", "sub", "default", "object"],
+            Self::Rows { .. } => &["text"],
+            Self::Glossary => &["abbreviation", "meaning"],
+            Self::History => &["number", "date", "description"],
         }
     }
 }

@@ -8,7 +8,7 @@ use super::numbers::to_u16;
 use super::places::{self, Places};
 use super::refs::{Broken, NamesOf};
 use super::table_content::Contents;
-use super::types::words;
+use super::types::{phrases, words};
 use super::varied::Varied;
 use super::{printed_order, unprinted};
 use crate::ast::{CodeRange, ContentDecl, IssueDecl, Name, Named, PartDecl, SectionDecl, Spec};
@@ -53,6 +53,7 @@ fn section(decl: &SectionDecl, figures: &Figures<'_, '_>, diagnostics: &mut Diag
         title: words(&decl.title),
         tables: Vec::new(),
         content: Vec::new(),
+        search: phrases(decl.search.as_ref()),
     };
     for part in &decl.content {
         match part.contents.first().map(|content| &content.value) {
@@ -121,8 +122,23 @@ fn table(
         Some(Figure { number, title: if own.is_empty() { title.clone() } else { own } })
     });
     let order = decl.order.iter().flat_map(|order| &order.value).map(|number| number.value).collect();
+    are_columns(&decl.columns, content.columns(), diagnostics);
     let columns = decl.columns.iter().map(|column| column.value.clone()).collect();
     Some(Table { number, title, figure, content, columns, order })
+}
+
+/// Reports the keys of columns that no such table has.
+fn are_columns(written: &[Name], known: &[&str], diagnostics: &mut Diagnostics) {
+    for column in written.iter().filter(|column| !known.contains(&column.value.as_str())) {
+        let message = format!("the table has no column `{}`", shorten(&column.value));
+        let list = known.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
+        let meant = diagnostics.suggestions.nearest(&column.value, known.iter().copied());
+        let diagnostic = Diagnostic::new(codes::UNKNOWN_REFERENCE, column.span, message);
+        diagnostics.push(match meant {
+            Some(word) => diagnostic.did_you_mean(word),
+            None => diagnostic.help(format!("its columns are {list}")),
+        });
+    }
 }
 
 /// Codes of a list; `all` is the empty list.

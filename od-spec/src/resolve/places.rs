@@ -240,7 +240,7 @@ fn numbers(words: &[&str], mut found: impl FnMut(u32, u32)) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Figure, Section, Table, Text};
+    use crate::model::{Figure, Phrases, Section, Table, Text};
 
     fn document() -> Document {
         let table = |number: Option<u16>, indices: &[u16]| Table {
@@ -259,6 +259,7 @@ mod tests {
             title: Text::default(),
             tables,
             content: Vec::new(),
+            search: Phrases::default(),
         };
         Document {
             sections: vec![

@@ -127,6 +127,21 @@ fn the_index_of_tables_names_the_facts_that_differ() {
 }
 
 #[test]
+fn tables_have_the_columns_that_a_specification_can_state() {
+    for path in [PITCH, FULLMO, EVERYTHING] {
+        let system = compile_clean(path).unwrap();
+        let (_, index) = pages(path);
+        let tables = index["tables"].as_array().unwrap();
+        for (table, (.., content)) in tables.iter().zip(system.document.tables()) {
+            let known = content.content.columns();
+            for column in table["columns"].as_array().unwrap() {
+                assert!(known.contains(&column.as_str().unwrap()), "{path}: {column} of {}", table["kind"]);
+            }
+        }
+    }
+}
+
+#[test]
 fn no_link_of_a_page_is_dead() {
     for path in [PITCH, FULLMO, EVERYTHING, TWO] {
         let system = compile_clean(path).unwrap();

@@ -9,7 +9,7 @@ use od_spec::model::{
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use super::{Words, date, device, entry_id, index, integer, words};
+use super::{SearchWords, Words, date, device, entry_id, index, integer, search_words, words};
 use crate::hexadecimal;
 
 #[derive(Serialize)]
@@ -39,6 +39,8 @@ struct SectionView<'a> {
     title: Words<'a>,
     tables: Vec<TableView<'a>>,
     content: Vec<ContentView<'a>>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    search: SearchWords<'a>,
 }
 
 /// What is in a section, in order: the position of a table, or a text.
@@ -89,6 +91,7 @@ pub(super) fn document(system: &System) -> DocumentView<'_> {
                 title: words(&section.title),
                 tables: section.tables.iter().map(|one| table(system, one)).collect(),
                 content: section.content.iter().map(content).collect(),
+                search: search_words(&section.search),
             })
             .collect(),
     }
