@@ -9,7 +9,7 @@ use crate::access::communication::Before;
 use crate::access::communication::Effect;
 use crate::access::corrected::correct;
 use crate::table::entry::Info;
-use crate::table::stored::{put, reset, value_of};
+use crate::table::stored::{put, put_bytes, reset, value_of};
 use crate::table::{Alias, Attributes, Flags, Found, NONE, Place, Region, Row, Storage, Table};
 use crate::value::Value;
 use crate::value::number::number;
@@ -73,6 +73,13 @@ pub trait Dictionary<'t>: Entries {
 
     /// Whether the write condition of this number holds now.
     fn condition(&self, number: u16) -> bool;
+
+    /// Whether the device is an LSS slave. Of a generated dictionary, its specification decides; a [`Node`](crate::Node) whose device
+    /// is none leaves LSS out.
+    #[inline]
+    fn is_lss_slave(&self) -> bool {
+        true
+    }
 
     /// The entry at an index and sub-index.
     ///
@@ -379,6 +386,22 @@ pub(crate) fn write_row<'t, D: Dictionary<'t>, A: Application<D>>(
         Effect::Command => {}
     }
     Ok(entry)
+}
+
+/// Writes an entry that [takes](Table::is_free) every value of its length, which this is.
+#[inline]
+pub(crate) fn put_free<'t, D: Dictionary<'t>, A: Application<D>>(
+    dictionary: &mut D,
+    row: Row,
+    place: usize,
+    data: &[u8],
+    application: &mut A,
+) -> Result<(), AbortCode> {
+    let entry = dictionary.entry(row).ok_or(AbortCode::INTERNAL)?;
+    application.accept(dictionary, entry, data)?;
+    put_bytes(dictionary.image_mut(), place, data)?;
+    application.changed(dictionary, entry);
+    Ok(())
 }
 
 /// The entry that holds a value, and what it gets.

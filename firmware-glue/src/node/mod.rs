@@ -190,13 +190,14 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         now: Instant,
     ) -> Option<Frame> {
         // Not while the node works: LSS sets up, and may switch the bit rate.
-        if self.state() != State::Operational
+        if dictionary.is_lss_slave()
+            && self.state() != State::Operational
             && let Some(answer) = self.lss.handle(frame, Identity::of(dictionary), application, now)
         {
             return Some(answer);
         }
         let id = self.id?;
-        if self.restart.is_some() || self.lss.is_silent() {
+        if self.restart.is_some() || self.is_silent(dictionary) {
             return None;
         }
         if let Some(command) = Command::of(frame, id) {
@@ -226,7 +227,9 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if !self.state().allows(Service::Sdo) {
             return None;
         }
-        self.sdo.handle(frame, dictionary, application, now)
+        // The type of application that PDOs have: what is written is checked by the same code.
+        let emergencies = &mut self.emergencies;
+        self.sdo.handle(frame, dictionary, &mut WithEmergencies { application, emergencies }, now)
     }
 
     /// A frame that is to be sent now; to be called until there is none.
@@ -236,21 +239,11 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         application: &mut A,
         now: Instant,
     ) -> Option<Frame> {
-        while let Some(event) = self.lss.poll(now) {
-            if event == LssEvent::Switched {
-                // All were silent: a watched node is watched from the next frame on.
-                self.consumer = Consumer::new();
-                self.control.forget_master();
-            }
-            application.node_event(dictionary, Event::Lss(event));
-        }
-        // A node that had no node-ID starts as soon as the master has given it one and lets it go.
-        if self.id.is_none() && self.lss.pending().is_some() && self.lss.state() == LssState::Waiting {
-            self.restart = Some(Reset::Node);
-            self.id = self.lss.pending();
+        if dictionary.is_lss_slave() {
+            self.poll_lss(dictionary, application, now);
         }
         let id = self.id?;
-        if self.lss.is_silent() {
+        if self.is_silent(dictionary) {
             return None;
         }
         if let Some(reset) = self.restart.take() {
@@ -276,13 +269,44 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if let Some(frame) = pdo.or_else(|| self.emergency(dictionary, now)) {
             return Some(frame);
         }
-        if self.state().allows(Service::Sdo) { self.sdo.poll(dictionary, application, now) } else { None }
+        if !self.state().allows(Service::Sdo) {
+            return None;
+        }
+        let emergencies = &mut self.emergencies;
+        self.sdo.poll(dictionary, &mut WithEmergencies { application, emergencies }, now)
+    }
+
+    /// Does what is due of LSS.
+    fn poll_lss<'t, D: Dictionary<'t>, A: NodeHandler<D>>(
+        &mut self,
+        dictionary: &mut D,
+        application: &mut A,
+        now: Instant,
+    ) {
+        while let Some(event) = self.lss.poll(now) {
+            if event == LssEvent::Switched {
+                // All were silent: a watched node is watched from the next frame on.
+                self.consumer = Consumer::new();
+                self.control.forget_master();
+            }
+            application.node_event(dictionary, Event::Lss(event));
+        }
+        // A node that had no node-ID starts as soon as the master has given it one and lets it go.
+        if self.id.is_none() && self.lss.pending().is_some() && self.lss.state() == LssState::Waiting {
+            self.restart = Some(Reset::Node);
+            self.id = self.lss.pending();
+        }
+    }
+
+    /// Whether LSS switches the bit rate.
+    fn is_silent<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> bool {
+        dictionary.is_lss_slave() && self.lss.is_silent()
     }
 
     /// When there is something to do next, unless a frame comes or something happens before; a time that has passed means at once.
     pub fn next_deadline<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> Option<Instant> {
-        let lss = self.lss.next_deadline();
-        if self.lss.is_silent() || self.id.is_none() {
+        let lss = if dictionary.is_lss_slave() { self.lss.next_deadline() } else { None };
+        if self.is_silent(dictionary) || self.id.is_none() {
             return lss;
         }
         if self.restart.is_some() {

@@ -53,6 +53,11 @@ impl<'t> Found<'t> {
     pub(crate) fn offset(self) -> usize {
         usize::from(self.shared.page) << 16 | usize::from(self.place)
     }
+
+    /// Its offset: low half and the rest.
+    pub(crate) const fn place(self) -> (u16, u8) {
+        (self.place, self.shared.page)
+    }
 }
 
 /// What is known about an entry.
