@@ -28,6 +28,11 @@ CONTENDERS = ("ours", "zencan", "canopen-rs")
 OPERATIONS = (
     "read u16",
     "write u16",
+    "read record",
+    "write record",
+    "read array element",
+    "read string",
+    "write string",
     "find",
     "find, missing sub-index",
     "typed read",

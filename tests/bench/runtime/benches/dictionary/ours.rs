@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use firmware_glue::Dictionary as _;
-use firmware_glue::pdo::{pack, unpack};
+use firmware_glue::pdo::{Rpdo, Tpdo};
 
 const NODE: u8 = 5;
 
@@ -14,10 +14,13 @@ macro_rules! models {
             use super::*;
             use bench_ours::$model::{Controller, pdos::Tpdo1};
 
-            pub struct Ours(Controller);
+            /// The PDOs are kept, as the engine of a node keeps them.
+            pub struct Ours(Controller, Tpdo, Rpdo);
 
             pub fn dictionary() -> Ours {
-                Ours(Controller::new(NODE))
+                let od = Controller::new(NODE);
+                let (tpdo, rpdo) = (Tpdo::new(od.table(), 1), Rpdo::new(od.table(), 1));
+                Ours(od, tpdo.expect("there is TPDO 1"), rpdo.expect("there is RPDO 1"))
             }
 
             impl crate::Dictionary for Ours {
@@ -31,6 +34,16 @@ macro_rules! models {
                     self.0.write(index, sub, &bytes, &mut ()).is_ok()
                 }
 
+                fn read_text(&self, index: u16, buffer: &mut [u8; crate::model::TEXT]) -> Option<usize> {
+                    let value = self.0.read(index, 0).ok()?;
+                    buffer.get_mut(..value.len())?.copy_from_slice(&value);
+                    Some(value.len())
+                }
+
+                fn write_text(&mut self, index: u16, text: &[u8]) -> bool {
+                    self.0.write(index, 0, text, &mut ()).is_ok()
+                }
+
                 fn find(&self, index: u16, sub: u8) -> bool {
                     // with access and size, which the peers' lookups give
                     black_box(self.0.info_at(index, sub)).is_ok()
@@ -41,7 +54,7 @@ macro_rules! models {
                 }
 
                 fn pack(&mut self, frame: &mut [u8; 8]) -> Option<usize> {
-                    let packed = pack(&mut self.0, 1, &mut ()).ok()?;
+                    let packed = self.1.pack(&mut self.0, &mut ()).ok()?;
                     frame[..packed.len()].copy_from_slice(&packed);
                     Some(packed.len())
                 }
@@ -51,7 +64,7 @@ macro_rules! models {
                 }
 
                 fn unpack(&mut self, frame: &[u8]) -> Option<()> {
-                    unpack(&mut self.0, 1, frame, &mut ()).ok().map(drop)
+                    self.2.unpack(&mut self.0, frame, &mut ()).ok().map(drop)
                 }
             }
         }
