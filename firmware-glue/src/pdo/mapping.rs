@@ -5,12 +5,14 @@
 
 use crate::abort::AbortCode;
 use crate::access::application::Application;
-use crate::access::dictionary::{Dictionary, put_free, write_row};
+use crate::access::communication::cob_id::NOT_VALID;
+use crate::access::dictionary::{Dictionary, write_row};
 use crate::pdo::{Frame, PdoError, Received, Refused, get_bits, put_bits};
 use crate::table::mapping::{FRAME_BITS, Mapped, width};
 use crate::table::stored::{at_row, value_of};
-use crate::table::{Found, Pdo, Place, Row, Table};
-use crate::value::image;
+use crate::table::{NONE, Pdo, Place, Row};
+use crate::value::image::{get, get_u8, get_u32, get_u64, put};
+use crate::value::number::unsigned;
 
 /// Entries that are resolved at the same time: as many as a frame has bytes. Of a PDO with more, of single bits, they take turns.
 const KEPT: u8 = 8;
@@ -18,35 +20,48 @@ const KEPT: u8 = 8;
 /// A mapping as it was when it was used last.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mapping {
-    source: Source,
     /// Mapped entries; 0 if none are resolved.
     count: u8,
     /// Bits up to the end of the entries that are resolved.
-    bits: u32,
+    bits: u8,
     /// Bytes of a frame.
     length: u8,
-    parameters: [u32; KEPT as usize],
+    packing: Packing,
+    watched: Option<Watched>,
+    cob_id: u32,
+    /// The mapping parameters, two in each.
+    parameters: [u64; KEPT as usize / 2],
     fields: [Field; KEPT as usize],
+    /// Where each byte of a frame is in the image.
+    places: [u16; KEPT as usize],
 }
 
-/// Where the mapping parameters lie.
+/// Where the parameters lie that led to the fields: in the image, or [`NONE`] of one in flash, which does not change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Source {
-    /// Each somewhere else, or too many: they are resolved for every frame.
-    Apart,
-    /// In flash: they do not change.
-    Constants,
-    /// In the image, one after the other from a place on.
-    Image(u32),
+struct Watched {
+    cob_id: u16,
+    number: u16,
+    /// The mapping parameters, one after the other.
+    parameters: u16,
+}
+
+/// How a TPDO is packed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Packing {
+    /// Value by value.
+    Values,
+    /// Byte by byte: all values are whole bytes of the image.
+    Bytes,
+    /// Two bytes at a time.
+    Words,
 }
 
 /// A mapped entry.
 #[derive(Debug, Clone, Copy)]
 struct Field {
     row: Row,
-    /// Its offset in the image: low half and the rest.
+    /// Its place in the image, of the kinds that have one.
     place: u16,
-    page: u8,
     kind: Kind,
     /// Its first bit in the frame.
     first: u8,
@@ -62,19 +77,24 @@ enum Kind {
     Other,
     /// Whole bytes in the image, which are checked when they are written.
     Checked,
-    /// Whole bytes in the image that take every value.
-    Free,
+    /// One, two or four bytes in the image that take every value.
+    Byte,
+    Word,
+    Long,
 }
 
 impl Mapping {
     /// Nothing is resolved yet.
     pub(crate) const NEW: Self = Self {
-        source: Source::Apart,
         count: 0,
         bits: 0,
         length: 0,
-        parameters: [0; KEPT as usize],
-        fields: [Field::dummy(0, 0); KEPT as usize],
+        packing: Packing::Values,
+        watched: None,
+        cob_id: 0,
+        parameters: [0; KEPT as usize / 2],
+        fields: [Field { row: 0, place: 0, kind: Kind::Dummy, first: 0, bits: 0 }; KEPT as usize],
+        places: [0; KEPT as usize],
     };
 
     /// The data of a TPDO.
@@ -84,27 +104,52 @@ impl Mapping {
         dictionary: &mut D,
         application: &mut A,
     ) -> Result<Frame, PdoError> {
-        let table = dictionary.table();
-        let count = self.update(dictionary, pdo)?;
+        self.update(dictionary, pdo)?;
         let mut bytes = [0; 8];
-        let mut at = 0;
-        loop {
-            for field in self.fields.iter().take((count - at).into()) {
-                let holder = if field.kind == Kind::Other { table.holder(field.row) } else { field.row };
-                if let Some(entry) = dictionary.entry(holder) {
+        if self.packing == Packing::Values {
+            self.pack_values(pdo, dictionary, application, &mut bytes)?;
+        } else {
+            for field in first(&self.fields, self.count) {
+                if let Some(entry) = dictionary.entry(field.row) {
                     application.refresh(dictionary, entry);
                 }
-                match field.kind {
-                    Kind::Dummy => return Err(PdoError::NotMapped),
-                    Kind::Checked | Kind::Free => field.get(dictionary.image(), &mut bytes),
-                    Kind::Other => field.get_other(dictionary, &mut bytes)?,
+            }
+            let (image, places) = (dictionary.image(), first(&self.places, self.length));
+            if self.packing == Packing::Words {
+                let words = bytes.as_chunks_mut::<2>().0.iter_mut().zip(places.as_chunks::<2>().0);
+                words.for_each(|(word, [place, _])| *word = get(image, usize::from(*place)));
+            } else {
+                let bytes = bytes.iter_mut().zip(places);
+                bytes.for_each(|(byte, place)| *byte = get_u8(image, usize::from(*place)));
+            }
+        }
+        Ok(Frame { bytes, length: self.length })
+    }
+
+    #[inline(never)]
+    fn pack_values<'t, D: Dictionary<'t>, A: Application<D>>(
+        &mut self,
+        pdo: &Pdo<'_>,
+        dictionary: &mut D,
+        application: &mut A,
+        bytes: &mut [u8; 8],
+    ) -> Result<(), PdoError> {
+        let (table, mut at) = (dictionary.table(), 0);
+        loop {
+            for field in first(&self.fields, self.count - at) {
+                if field.kind == Kind::Dummy {
+                    return Err(PdoError::NotMapped);
                 }
+                if let Some(entry) = dictionary.entry(table.holder(field.row)) {
+                    application.refresh(dictionary, entry);
+                }
+                let value = value_of(table, dictionary.image(), table.found(field.row));
+                let number = unsigned(&value.map_err(PdoError::NoValue)?);
+                put_bits(bytes, field.first.into(), field.bits.into(), number);
             }
-            at += KEPT;
-            if at >= count {
-                return Ok(Frame { bytes, length: self.length });
+            if !self.next(&mut at, dictionary, pdo)? {
+                return Ok(());
             }
-            self.window(dictionary, pdo, at, count)?;
         }
     }
 
@@ -116,26 +161,30 @@ impl Mapping {
         dictionary: &mut D,
         application: &mut A,
     ) -> Result<Received<D::Entry>, PdoError> {
-        let count = self.update(dictionary, pdo)?;
+        self.update(dictionary, pdo)?;
         let length = usize::from(self.length);
         if data.len() < length {
             return Err(PdoError::TooShort);
         }
         let mut received = Received { too_long: data.len() > length, refused: None };
-        let mut at = 0;
+        let (frame, mut at) = (whole(data), 0);
         loop {
-            for field in self.fields.iter().take((count - at).into()) {
-                if let Err(code) = field.put(data, dictionary, application)
+            for field in first(&self.fields, self.count - at) {
+                let outcome = match field.kind {
+                    Kind::Word => field.put_bytes::<2, D, A>(&frame, dictionary, application),
+                    Kind::Long => field.put_bytes::<4, D, A>(&frame, dictionary, application),
+                    Kind::Byte => field.put_bytes::<1, D, A>(&frame, dictionary, application),
+                    Kind::Dummy | Kind::Checked | Kind::Other => field.put_other(&frame, dictionary, application),
+                };
+                if let Err(code) = outcome
                     && let (None, Some(entry)) = (received.refused, dictionary.entry(field.row))
                 {
                     received.refused = Some(Refused { entry, code });
                 }
             }
-            at += KEPT;
-            if at >= count {
+            if !self.next(&mut at, dictionary, pdo)? {
                 return Ok(received);
             }
-            self.window(dictionary, pdo, at, count)?;
         }
     }
 
@@ -151,74 +200,85 @@ impl Mapping {
 
     /// Whether the PDO carries an entry or a view of it.
     pub(crate) fn carries<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, pdo: &Pdo<'_>, row: Row) -> bool {
-        let Ok(count) = self.update(dictionary, pdo) else { return false };
-        let mut at = 0;
-        loop {
-            let mut fields = self.fields.iter().take((count - at).into());
-            if fields.any(|field| field.kind != Kind::Dummy && dictionary.table().holder(field.row) == row) {
+        let (table, mut at) = (dictionary.table(), 0);
+        let mut goes_on = self.update(dictionary, pdo).is_ok();
+        while goes_on {
+            let mut fields = first(&self.fields, self.count - at).iter();
+            if fields.any(|field| field.kind != Kind::Dummy && table.holder(field.row) == row) {
                 return true;
             }
-            at += KEPT;
-            if at >= count || self.window(dictionary, pdo, at, count).is_err() {
-                return false;
-            }
+            goes_on = self.next(&mut at, dictionary, pdo) == Ok(true);
         }
+        false
     }
 
-    /// Resolves the mapping of now, unless it is; the number of mapped entries.
+    /// Resolves the entries after those from a position on, if there are more.
     #[inline]
-    fn update<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, pdo: &Pdo<'_>) -> Result<u8, PdoError> {
-        let (table, image) = (dictionary.table(), dictionary.image());
-        let count = at_row(table, image, table.found(pdo.mapping)).unwrap_or_default();
-        if u32::from(self.count) == count && self.is_current(image) {
-            return Ok(self.count);
+    fn next<'t, D: Dictionary<'t>>(
+        &mut self,
+        at: &mut u8,
+        dictionary: &D,
+        pdo: &Pdo<'_>,
+    ) -> Result<bool, PdoError> {
+        *at += KEPT;
+        if *at >= self.count {
+            return Ok(false);
         }
-        self.resolve(dictionary, pdo, count)
+        self.window(dictionary, pdo, *at, self.count).map(|()| true)
+    }
+
+    /// Resolves the mapping of now, unless it is.
+    #[inline]
+    fn update<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, pdo: &Pdo<'_>) -> Result<(), PdoError> {
+        if self.is_current(dictionary.image()) { Ok(()) } else { self.resolve(dictionary, pdo) }
     }
 
     /// Whether the parameters are those that were resolved.
     #[inline]
     fn is_current(&self, image: &[u8]) -> bool {
-        match self.source {
-            Source::Constants => true,
-            Source::Image(at) => {
-                let now = usize::try_from(at).ok().and_then(|at| image.get(at..)).unwrap_or_default();
-                let kept = self.parameters.iter().take(self.count.into());
-                // Word by word: for a few, a call of `memcmp` takes longer.
-                now.len() >= 4 * usize::from(self.count)
-                    && now
-                        .as_chunks::<4>()
-                        .0
-                        .iter()
-                        .zip(kept)
-                        .all(|(now, kept)| u32::from_le_bytes(*now) == *kept)
-            }
-            Source::Apart => false,
+        let Some(Watched { cob_id, number, parameters }) = self.watched else { return false };
+        if cob_id != NONE && get_u32(image, cob_id.into()) != self.cob_id {
+            return false;
         }
+        if number != NONE && get_u8(image, number.into()) != self.count {
+            return false;
+        }
+        // Two at a time: for a few, a call of `memcmp` takes longer.
+        let mut place = usize::from(parameters);
+        for kept in if parameters == NONE { &[] } else { first(&self.parameters, self.count.div_ceil(2)) } {
+            if get_u64(image, place) != *kept {
+                return false;
+            }
+            place += 8;
+        }
+        true
     }
 
     #[cold]
     #[inline(never)]
-    fn resolve<'t, D: Dictionary<'t>>(
-        &mut self,
-        dictionary: &D,
-        pdo: &Pdo<'_>,
-        count: u32,
-    ) -> Result<u8, PdoError> {
-        self.count = 0;
-        let Ok(count @ 1..=64) = u8::try_from(count) else { return Err(PdoError::NotMapped) };
+    fn resolve<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, pdo: &Pdo<'_>) -> Result<(), PdoError> {
+        self.watched = None;
+        let cob_id = row_number(dictionary, pdo.cob_id).ok_or(PdoError::NoPdo)?;
+        if cob_id & NOT_VALID != 0 {
+            return Err(PdoError::NotValid);
+        }
+        let count = row_number(dictionary, pdo.mapping).and_then(|count| u8::try_from(count).ok());
+        let Some(count @ 1..=64) = count else { return Err(PdoError::NotMapped) };
+        self.packing = if count > KEPT { Packing::Values } else { Packing::Words };
         for first in (0..count).step_by(KEPT.into()) {
             self.window(dictionary, pdo, first, count)?;
         }
-        self.length = u8::try_from(self.bits.div_ceil(8)).unwrap_or(8);
+        (self.count, self.cob_id, self.length) = (count, cob_id, self.bits.div_ceil(8));
         if count > KEPT {
-            self.window(dictionary, pdo, 0, count)?;
-            self.source = Source::Apart;
-        } else {
-            self.source = source(dictionary.table(), pdo.mapping.saturating_add(1), count);
+            return self.window(dictionary, pdo, 0, count);
         }
-        self.count = count;
-        Ok(count)
+        self.watched = watched(dictionary, pdo, count);
+        let parameters = self.watched.map_or(NONE, |watched| watched.parameters);
+        for (kept, place) in self.parameters.iter_mut().zip((usize::from(parameters)..).step_by(8)) {
+            // What follows the last one is looked at, too: the mapping is resolved again when it changes.
+            *kept = get_u64(dictionary.image(), place);
+        }
+        Ok(())
     }
 
     /// Resolves some entries; those before them were resolved last.
@@ -230,118 +290,126 @@ impl Mapping {
         first: u8,
         count: u8,
     ) -> Result<(), PdoError> {
-        let (table, image) = (dictionary.table(), dictionary.image());
         if first == 0 {
             self.bits = 0;
         }
-        for (at, (kept, field)) in (first..count).zip(self.parameters.iter_mut().zip(&mut self.fields)) {
+        for (at, field) in (first..count).zip(&mut self.fields) {
             let row = pdo.mapping.saturating_add(1 + Row::from(at));
-            let parameter = at_row(table, image, table.found(row)).ok_or(PdoError::NotMapped)?;
-            let mapped = Mapped::of(parameter);
-            (*kept, *field) = (parameter, Field::of(table, mapped, self.bits).ok_or(PdoError::NotMapped)?);
-            self.bits += mapped.bits;
-            if self.bits > FRAME_BITS {
+            let mapped = Mapped::of(row_number(dictionary, row).ok_or(PdoError::NotMapped)?);
+            *field = Field::of(dictionary, mapped, self.bits).ok_or(PdoError::NotMapped)?;
+            let size = field.bits / 8;
+            self.packing = match field.kind {
+                Kind::Dummy | Kind::Other => Packing::Values,
+                Kind::Checked | Kind::Byte | Kind::Word | Kind::Long if !size.is_multiple_of(2) => {
+                    self.packing.min(Packing::Bytes)
+                }
+                Kind::Checked | Kind::Byte | Kind::Word | Kind::Long => self.packing,
+            };
+            let places = self.places.iter_mut().skip((field.first / 8).into()).take(size.into());
+            places.zip(field.place..).for_each(|(byte, place)| *byte = place);
+            let next = u32::from(self.bits) + mapped.bits;
+            if next > FRAME_BITS {
                 return Err(PdoError::NotMapped);
             }
+            self.bits = u8::try_from(next).unwrap_or(u8::MAX);
         }
         Ok(())
     }
 }
 
-/// Where so many mapping parameters lie, the first of which is in a row.
-fn source(table: &Table<'_>, first: Row, count: u8) -> Source {
-    let rows = (first..).take(count.into());
-    let mut places = rows.map(|row| table.found(row)).zip(0..);
-    let start = table.found(first).offset();
-    if places.clone().all(|(found, _)| found.shared.place == Place::Constant) {
-        Source::Constants
-    } else if places.all(|(found, at): (Found<'_>, usize)| {
-        found.shared.place == Place::Image && found.shared.size == 4 && found.offset() == start + 4 * at
-    }) {
-        u32::try_from(start).map_or(Source::Apart, Source::Image)
-    } else {
-        Source::Apart
+/// The first items of a list, at most all.
+#[inline]
+fn first<T>(list: &[T], count: u8) -> &[T] {
+    list.get(..usize::from(count)).unwrap_or(list)
+}
+
+/// Data with zeros after them.
+#[inline]
+fn whole(data: &[u8]) -> [u8; 8] {
+    match data.first_chunk() {
+        Some(bytes) => *bytes,
+        None => unsigned(data).to_le_bytes(),
     }
+}
+
+/// The number in a row.
+#[inline(never)]
+fn row_number<'t, D: Dictionary<'t>>(dictionary: &D, row: Row) -> Option<u32> {
+    let table = dictionary.table();
+    at_row(table, dictionary.image(), table.found(row))
+}
+
+/// Where the parameters lie; `None` if some may change and are not where they can be watched.
+fn watched<'t, D: Dictionary<'t>>(dictionary: &D, pdo: &Pdo<'_>, count: u8) -> Option<Watched> {
+    let table = dictionary.table();
+    let place = |row: Row, size: u16| {
+        let found = table.found(row);
+        match found.shared.place {
+            Place::Constant => Some(NONE),
+            Place::Image if found.shared.size == size => found.near(),
+            Place::Image | Place::Alias | Place::Application => None,
+        }
+    };
+    let rows = pdo.mapping.saturating_add(1)..;
+    let first = place(rows.start, 4)?;
+    for (row, at) in rows.take(count.into()).zip((first..).step_by(4)) {
+        if place(row, 4)? != (if first == NONE { NONE } else { at }) {
+            return None;
+        }
+    }
+    Some(Watched { cob_id: place(pdo.cob_id, 4)?, number: place(pdo.mapping, 1)?, parameters: first })
 }
 
 impl Field {
     /// The field of a mapping parameter; `None` if it maps what is not there.
-    fn of(table: &Table<'_>, mapped: Mapped, first: u32) -> Option<Self> {
-        let (first, bits) = (u8::try_from(first).ok()?, u8::try_from(mapped.bits).ok()?);
+    fn of<'t, D: Dictionary<'t>>(dictionary: &D, mapped: Mapped, first: u8) -> Option<Self> {
+        let bits = u8::try_from(mapped.bits).ok()?;
         if mapped.is_dummy() {
-            return Some(Self::dummy(first, bits));
+            return Some(Self { row: 0, place: 0, kind: Kind::Dummy, first, bits });
         }
+        let table = dictionary.table();
         let found = table.search(mapped.index, mapped.sub).ok()?;
         let is_whole = width(found.shared) == mapped.bits && (first | bits).is_multiple_of(8);
-        let kind = if !is_whole || found.shared.place != Place::Image || found.shared.data_type.is_string() {
-            Kind::Other
-        } else if table.is_free(found) {
-            Kind::Free
-        } else {
-            Kind::Checked
+        let is_number = found.shared.place == Place::Image && !found.shared.data_type.is_string();
+        let (kind, place) = match found.near() {
+            Some(place) if is_whole && is_number => match bits {
+                8 if table.is_free(found) => (Kind::Byte, place),
+                16 if table.is_free(found) => (Kind::Word, place),
+                32 if table.is_free(found) => (Kind::Long, place),
+                _ => (Kind::Checked, place),
+            },
+            Some(_) | None => (Kind::Other, 0),
         };
-        let (place, page) = found.place();
-        Some(Self { row: found.row, place, page, kind, first, bits })
+        Some(Self { row: found.row, place, kind, first, bits })
     }
 
-    const fn dummy(first: u8, bits: u8) -> Self {
-        Self { row: 0, place: 0, page: 0, kind: Kind::Dummy, first, bits }
-    }
-
-    fn offset(&self) -> usize {
-        usize::from(self.page) << 16 | usize::from(self.place)
-    }
-
-    /// Puts the value into a frame.
+    /// Writes a value from a frame, which the entry takes whatever it is.
     #[inline]
-    fn get(&self, image: &[u8], frame: &mut [u8; 8]) {
-        let (from, to) = (self.offset(), usize::from(self.first / 8));
-        match self.bits {
-            32 => image::put(frame, to, image::get::<4>(image, from)),
-            16 => image::put(frame, to, image::get::<2>(image, from)),
-            8 => image::put(frame, to, image::get::<1>(image, from)),
-            bits => {
-                let value = image.get(from..).unwrap_or_default().iter().take((bits / 8).into());
-                frame.iter_mut().skip(to).zip(value).for_each(|(byte, value)| *byte = *value);
-            }
-        }
-    }
-
-    /// Puts a value into a frame that does not lie in the image as whole bytes.
-    #[inline(never)]
-    fn get_other<'t, D: Dictionary<'t>>(&self, dictionary: &D, frame: &mut [u8; 8]) -> Result<(), PdoError> {
-        let table = dictionary.table();
-        let value = value_of(table, dictionary.image(), table.found(self.row)).map_err(PdoError::NoValue)?;
-        put_bits(frame, self.first.into(), self.bits.into(), crate::value::number::unsigned(&value));
+    fn put_bytes<'t, const N: usize, D: Dictionary<'t>, A: Application<D>>(
+        &self,
+        frame: &[u8; 8],
+        dictionary: &mut D,
+        application: &mut A,
+    ) -> Result<(), AbortCode> {
+        let value = get::<N>(frame, usize::from(self.first / 8));
+        let entry = dictionary.entry(self.row).ok_or(AbortCode::INTERNAL)?;
+        application.accept(dictionary, entry, &value)?;
+        put(dictionary.image_mut(), self.place.into(), value);
+        application.changed(dictionary, entry);
         Ok(())
     }
 
     /// Writes the value from a frame, with every check.
-    #[inline]
-    fn put<'t, D: Dictionary<'t>, A: Application<D>>(
-        &self,
-        frame: &[u8],
-        dictionary: &mut D,
-        application: &mut A,
-    ) -> Result<(), AbortCode> {
-        match self.kind {
-            Kind::Dummy => Ok(()),
-            Kind::Free => {
-                let (from, size) = (usize::from(self.first / 8), usize::from(self.bits / 8));
-                let value = frame.get(from..from + size).ok_or(AbortCode::INTERNAL)?;
-                put_free(dictionary, self.row, self.offset(), value, application)
-            }
-            Kind::Checked | Kind::Other => self.put_other(frame, dictionary, application),
-        }
-    }
-
     #[inline(never)]
     fn put_other<'t, D: Dictionary<'t>, A: Application<D>>(
         &self,
-        frame: &[u8],
+        frame: &[u8; 8],
         dictionary: &mut D,
         application: &mut A,
     ) -> Result<(), AbortCode> {
+        if self.kind == Kind::Dummy {
+            return Ok(());
+        }
         let found = dictionary.table().found(self.row);
         let number = get_bits(frame, self.first.into(), self.bits.into()).to_le_bytes();
         let value = number.get(..usize::from(found.shared.size).min(8)).unwrap_or(&number);

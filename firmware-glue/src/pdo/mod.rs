@@ -56,13 +56,11 @@ use core::ops::Deref;
 
 use crate::abort::AbortCode;
 use crate::access::application::Application;
-use crate::access::communication::cob_id::NOT_VALID;
 use crate::access::constraint::{Consistent, Constrained};
 use crate::access::dictionary::Dictionary;
 use crate::pdo::mapping::Mapping;
 use crate::table::mapping::{RECEIVE, TRANSMIT};
-use crate::table::stored::at_row;
-use crate::table::{Pdo, Table};
+use crate::table::Table;
 use crate::value::number::unsigned;
 
 /// The data of a PDO.
@@ -145,7 +143,7 @@ impl Tpdo {
         dictionary: &mut D,
         application: &mut A,
     ) -> Result<Frame, PdoError> {
-        let pdo = valid(dictionary, self.position)?;
+        let pdo = dictionary.table().parts().pdos.get(self.position).ok_or(PdoError::NoPdo)?;
         self.mapping.pack(pdo, dictionary, application)
     }
 }
@@ -179,7 +177,7 @@ impl Rpdo {
         data: &[u8],
         application: &mut A,
     ) -> Result<Received<D::Entry>, PdoError> {
-        let pdo = valid(dictionary, self.position)?;
+        let pdo = dictionary.table().parts().pdos.get(self.position).ok_or(PdoError::NoPdo)?;
         self.mapping.unpack(pdo, data, dictionary, application)
     }
 }
@@ -234,15 +232,6 @@ fn position(table: &Table<'_>, first: u16, number: u16) -> Result<usize, PdoErro
         .pdos
         .binary_search_by_key(&(first + number - 1), |pdo| pdo.index)
         .map_err(|_| PdoError::NoPdo)
-}
-
-/// A PDO that exists now.
-#[inline]
-fn valid<'t, D: Dictionary<'t>>(dictionary: &D, position: usize) -> Result<&'t Pdo<'t>, PdoError> {
-    let table = dictionary.table();
-    let pdo = table.parts().pdos.get(position).ok_or(PdoError::NoPdo)?;
-    let cob_id = at_row(table, dictionary.image(), table.found(pdo.cob_id)).ok_or(PdoError::NoPdo)?;
-    if cob_id & NOT_VALID == 0 { Ok(pdo) } else { Err(PdoError::NotValid) }
 }
 
 /// The bits of a PDO's data, from a bit on: what generated code does with values that fill no whole bytes.
