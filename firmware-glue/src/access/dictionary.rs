@@ -9,9 +9,10 @@ use crate::access::communication::Before;
 use crate::access::communication::Effect;
 use crate::access::corrected::correct;
 use crate::table::entry::Info;
-use crate::table::stored::{put, put_bytes, reset, value_of};
+use crate::table::stored::{put, reset, value_of};
 use crate::table::{Alias, Attributes, Flags, Found, NONE, Place, Region, Row, Storage, Table};
 use crate::value::Value;
+use crate::value::image;
 use crate::value::number::number;
 
 /// A dictionary: values in a byte image, everything else in a table that lives for `'t`, of generated code for `'static`. The
@@ -390,16 +391,16 @@ pub(crate) fn write_row<'t, D: Dictionary<'t>, A: Application<D>>(
 
 /// Writes an entry that [takes](Table::is_free) every value of its length, which this is.
 #[inline]
-pub(crate) fn put_free<'t, D: Dictionary<'t>, A: Application<D>>(
+pub(crate) fn put_free<'t, const N: usize, D: Dictionary<'t>, A: Application<D>>(
     dictionary: &mut D,
     row: Row,
     place: usize,
-    data: &[u8],
+    value: [u8; N],
     application: &mut A,
 ) -> Result<(), AbortCode> {
     let entry = dictionary.entry(row).ok_or(AbortCode::INTERNAL)?;
-    application.accept(dictionary, entry, data)?;
-    put_bytes(dictionary.image_mut(), place, data)?;
+    application.accept(dictionary, entry, &value)?;
+    image::put(dictionary.image_mut(), place, value);
     application.changed(dictionary, entry);
     Ok(())
 }

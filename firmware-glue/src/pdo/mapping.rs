@@ -6,12 +6,12 @@
 use crate::abort::AbortCode;
 use crate::access::application::Application;
 use crate::access::communication::cob_id::NOT_VALID;
-use crate::access::dictionary::{Dictionary, write_row};
+use crate::access::dictionary::{Dictionary, put_free, write_row};
 use crate::pdo::{Frame, PdoError, Received, Refused, get_bits, put_bits};
 use crate::table::mapping::{FRAME_BITS, Mapped, width};
 use crate::table::stored::{at_row, value_of};
 use crate::table::{NONE, Pdo, Place, Row};
-use crate::value::image::{get, get_u8, get_u32, get_u64, put};
+use crate::value::image::{get, get_u8, get_u32, get_u64};
 use crate::value::number::unsigned;
 
 /// Entries that are resolved at the same time: as many as a frame has bytes. Of a PDO with more, of single bits, they take turns.
@@ -98,6 +98,7 @@ impl Mapping {
     };
 
     /// The data of a TPDO.
+    #[inline]
     pub(crate) fn pack<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
         pdo: &Pdo<'_>,
@@ -154,6 +155,7 @@ impl Mapping {
     }
 
     /// Takes the data of an RPDO.
+    #[inline]
     pub(crate) fn unpack<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
         pdo: &Pdo<'_>,
@@ -194,14 +196,14 @@ impl Mapping {
         dictionary: &D,
         pdo: &Pdo<'_>,
     ) -> Result<u8, PdoError> {
-        self.update(dictionary, pdo)?;
+        self.renew(dictionary, pdo)?;
         Ok(self.length)
     }
 
     /// Whether the PDO carries an entry or a view of it.
     pub(crate) fn carries<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, pdo: &Pdo<'_>, row: Row) -> bool {
         let (table, mut at) = (dictionary.table(), 0);
-        let mut goes_on = self.update(dictionary, pdo).is_ok();
+        let mut goes_on = self.renew(dictionary, pdo).is_ok();
         while goes_on {
             let mut fields = first(&self.fields, self.count - at).iter();
             if fields.any(|field| field.kind != Kind::Dummy && table.holder(field.row) == row) {
@@ -231,6 +233,12 @@ impl Mapping {
     #[inline]
     fn update<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, pdo: &Pdo<'_>) -> Result<(), PdoError> {
         if self.is_current(dictionary.image()) { Ok(()) } else { self.resolve(dictionary, pdo) }
+    }
+
+    /// [`update`](Self::update) where it need not be fast: one function for all that call it.
+    #[inline(never)]
+    fn renew<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, pdo: &Pdo<'_>) -> Result<(), PdoError> {
+        self.update(dictionary, pdo)
     }
 
     /// Whether the parameters are those that were resolved.
@@ -392,11 +400,7 @@ impl Field {
         application: &mut A,
     ) -> Result<(), AbortCode> {
         let value = get::<N>(frame, usize::from(self.first / 8));
-        let entry = dictionary.entry(self.row).ok_or(AbortCode::INTERNAL)?;
-        application.accept(dictionary, entry, &value)?;
-        put(dictionary.image_mut(), self.place.into(), value);
-        application.changed(dictionary, entry);
-        Ok(())
+        put_free(dictionary, self.row, self.place.into(), value, application)
     }
 
     /// Writes the value from a frame, with every check.

@@ -89,12 +89,6 @@ pub(crate) fn put(image: &mut [u8], holder: Found<'_>, data: &[u8]) -> Result<()
         store_string(place, string_type, data);
         return Ok(());
     }
-    put_bytes(image, at, data)
-}
-
-/// Puts bytes at a place.
-#[inline]
-pub(crate) fn put_bytes(image: &mut [u8], at: usize, data: &[u8]) -> Result<(), AbortCode> {
     let place = image.get_mut(at..at + data.len()).ok_or(AbortCode::INTERNAL)?;
     copy(place, data);
     Ok(())

@@ -132,6 +132,7 @@ impl Receive {
     }
 
     /// The values take effect.
+    #[inline(never)]
     fn take<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
         contents: Contents<'_>,

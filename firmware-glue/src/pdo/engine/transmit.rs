@@ -200,7 +200,8 @@ impl Transmit {
     }
 }
 
-/// The values of now, by the present mapping.
+/// The values of now, by the present mapping. One function for all that call it.
+#[inline(never)]
 fn pack<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
     contents: Contents<'_>,
     dictionary: &mut D,

@@ -106,8 +106,15 @@ pub(super) fn write_expedited<'t, D: Dictionary<'t>, A: Application<D>>(
     let EntryId { index, sub } = id;
     let found = writable(dictionary.table(), index, sub)?;
     // Almost every value that is written is a number without rules.
-    if dictionary.table().is_free(found) && value.length().map(u16::from) == Some(found.shared.size) {
-        return put_free(dictionary, found.row, found.offset(), value.bytes(), application);
+    if dictionary.table().is_free(found) {
+        let (row, place, four) = (found.row, found.offset(), value.four());
+        let [a, b, ..] = four;
+        match (value.length(), found.shared.size) {
+            (Some(4), 4) => return put_free(dictionary, row, place, four, application),
+            (Some(2), 2) => return put_free(dictionary, row, place, [a, b], application),
+            (Some(1), 1) => return put_free(dictionary, row, place, [a], application),
+            _ => {}
+        }
     }
     let data = match value.length() {
         Some(_) => value.bytes(),
