@@ -290,7 +290,7 @@ pub(crate) fn readable<'t, D: Dictionary<'t>, A: Application<D>>(
     application: &mut A,
 ) -> Result<Found<'t>, AbortCode> {
     let table = dictionary.table();
-    let found = table.lookup(index, sub)?;
+    let found = table.search(index, sub)?;
     if !found.shared.flags.has(Flags::READ) {
         return Err(AbortCode::WRITE_ONLY);
     }
@@ -299,6 +299,15 @@ pub(crate) fn readable<'t, D: Dictionary<'t>, A: Application<D>>(
         communication::history_has(table, dictionary.image(), sub)?;
     }
     Ok(found)
+}
+
+/// The value of an entry, whatever its access: one function for services that are not in a hurry.
+#[inline(never)]
+pub(crate) fn value<'t: 'v, 'v, D: Dictionary<'t>>(
+    dictionary: &'v D,
+    found: Found<'t>,
+) -> Result<Value<'v>, AbortCode> {
+    value_of(dictionary.table(), dictionary.image(), found)
 }
 
 /// Gives the application the chance to bring a value up to date.

@@ -6,10 +6,10 @@
 use crate::abort::AbortCode;
 use crate::access::application::Application;
 use crate::access::communication::cob_id::NOT_VALID;
-use crate::access::dictionary::{Dictionary, put_free, write_row};
+use crate::access::dictionary::{Dictionary, put_free, value, write_row};
 use crate::pdo::{Frame, PdoError, Received, Refused, get_bits, put_bits};
 use crate::table::mapping::{FRAME_BITS, Mapped, width};
-use crate::table::stored::{at_row, value_of};
+use crate::table::stored::at_row;
 use crate::table::{NONE, Pdo, Place, Row};
 use crate::value::image::{get, get_u8, get_u32, get_u64};
 use crate::value::number::unsigned;
@@ -144,8 +144,8 @@ impl Mapping {
                 if let Some(entry) = dictionary.entry(table.holder(field.row)) {
                     application.refresh(dictionary, entry);
                 }
-                let value = value_of(table, dictionary.image(), table.found(field.row));
-                let number = unsigned(&value.map_err(PdoError::NoValue)?);
+                let value = value(dictionary, table.found(field.row)).map_err(PdoError::NoValue)?;
+                let number = unsigned(&value);
                 put_bits(bytes, field.first.into(), field.bits.into(), number);
             }
             if !self.next(&mut at, dictionary, pdo)? {

@@ -109,6 +109,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
     }
 
     /// The node becomes operational: PDOs begin.
+    #[inline(never)]
     pub fn start<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, now: Instant) {
         for (slot, pdo) in self.transmit.iter_mut().zip(transmit_pdos(dictionary.table())) {
             slot.start(Settings::of(dictionary, pdo), now);
@@ -119,6 +120,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
     }
 
     /// The node leaves operational: nothing is sent, received or watched, and what waits is dropped.
+    #[inline(never)]
     pub fn stop(&mut self) {
         self.transmit = [Transmit::NEW; T];
         self.receive = [Receive::NEW; R];
