@@ -49,6 +49,7 @@ pub use handler::{Event, NodeHandler, Reset};
 pub use room::{NoRoom, Room, UpTo};
 
 use crate::access::dictionary::Dictionary;
+use crate::access::parameters::Parameters;
 use crate::bus::clock::{Instant, earlier};
 use crate::bus::frame::Frame;
 use crate::bus::node_id::NodeId;
@@ -312,23 +313,18 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if self.restart.is_some() {
             return Some(Instant::ZERO);
         }
-        let reported = if self.state().allows(Service::Emergency) {
-            self.emergencies.next_deadline(dictionary)
-        } else {
-            None
-        };
-        let sync =
-            if self.state().allows(Service::Sync) { self.sync.next_deadline(dictionary) } else { None };
-        [
-            sync,
-            self.control.next_deadline(dictionary),
-            self.consumer.next_deadline(),
-            self.pdos.next_deadline(dictionary),
-            self.sdo.next_deadline(),
-            reported,
-        ]
-        .into_iter()
-        .fold(lss, earlier)
+        let mut next = earlier(lss, self.control.next_deadline(dictionary));
+        if Parameters::of(dictionary).has(0x1016) {
+            next = earlier(next, self.consumer.next_deadline());
+        }
+        if self.state().allows(Service::Emergency) {
+            next = earlier(next, self.emergencies.next_deadline(dictionary));
+        }
+        if self.state().allows(Service::Sync) {
+            next = earlier(next, self.sync.next_deadline(dictionary));
+        }
+        next = earlier(next, self.pdos.next_deadline(dictionary));
+        earlier(next, self.sdo.next_deadline())
     }
 
     /// An emergency message that is to be sent now.
@@ -356,7 +352,8 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
             self.communication_error(dictionary, application, now);
             application.node_event(dictionary, Event::Guarding(event));
         }
-        if !self.consumer.is_any_lost() && !self.control.is_lost() {
+        let is_any_lost = Parameters::of(dictionary).has(0x1016) && self.consumer.is_any_lost();
+        if !is_any_lost && !self.control.is_lost() {
             self.emergencies.clear(dictionary, Emergency::HEARTBEAT.code());
         }
         for (goes_on, error) in [

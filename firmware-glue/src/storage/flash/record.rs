@@ -83,6 +83,7 @@ impl<const CHUNK: usize> Reader<CHUNK> {
     }
 
     /// The next byte.
+    #[inline(never)]
     pub(super) fn byte<F: NorFlash>(&mut self, flash: &mut F) -> Result<u8, Unreadable> {
         if self.given >= CHUNK {
             let after = u32::try_from(CHUNK).ok().and_then(|size| self.next.checked_add(size));
@@ -168,6 +169,7 @@ impl<const CHUNK: usize> Writer<CHUNK> {
     }
 
     /// Writes bytes, as soon as they fill a chunk.
+    #[inline(never)]
     pub(super) fn bytes<F: NorFlash>(
         &mut self,
         flash: &mut F,
