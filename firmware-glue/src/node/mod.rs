@@ -99,12 +99,14 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if watched > WATCHED {
             return Err(NoRoom::Watched(watched));
         }
+        // Before the node is made: what is large is moved as little as can be.
+        PdoEngine::<T, R>::check(table).map_err(NoRoom::Pdos)?;
         Ok(Self {
             nmt: Nmt::new(),
             restart: Some(Reset::Node),
             control: ErrorControl::new(),
             consumer: Consumer::new(),
-            pdos: PdoEngine::new(table).map_err(NoRoom::Pdos)?,
+            pdos: PdoEngine::resting(),
             sync: SyncProducer::new(),
             emergencies: EmergencyProducer::new(),
             sdo: SdoServer::new(NO_CHANNEL, room.sdo_buffer),

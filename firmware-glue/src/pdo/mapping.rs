@@ -176,7 +176,9 @@ impl Mapping {
                     Kind::Word => field.put_bytes::<2, D, A>(&frame, dictionary, application),
                     Kind::Long => field.put_bytes::<4, D, A>(&frame, dictionary, application),
                     Kind::Byte => field.put_bytes::<1, D, A>(&frame, dictionary, application),
-                    Kind::Dummy | Kind::Checked | Kind::Other => field.put_other(&frame, dictionary, application),
+                    Kind::Dummy | Kind::Checked | Kind::Other => {
+                        field.put_other(&frame, dictionary, application)
+                    }
                 };
                 if let Err(code) = outcome
                     && let (None, Some(entry)) = (received.refused, dictionary.entry(field.row))

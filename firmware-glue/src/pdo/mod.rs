@@ -59,8 +59,8 @@ use crate::access::application::Application;
 use crate::access::constraint::{Consistent, Constrained};
 use crate::access::dictionary::Dictionary;
 use crate::pdo::mapping::Mapping;
-use crate::table::mapping::{RECEIVE, TRANSMIT};
 use crate::table::Table;
+use crate::table::mapping::{RECEIVE, TRANSMIT};
 use crate::value::number::unsigned;
 
 /// The data of a PDO.

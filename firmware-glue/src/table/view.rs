@@ -166,7 +166,8 @@ mod tests {
 
     #[test]
     fn quotients_are_those_of_the_processor() {
-        let ends = [0, 1, 7, 1000, 0xFFFF_FFFE, 0xFFFF_FFFF, 0x1_0000_0000, 0x1_0000_0001, i64::MAX - 1, i64::MAX];
+        let ends =
+            [0, 1, 7, 1000, 0xFFFF_FFFE, 0xFFFF_FFFF, 0x1_0000_0000, 0x1_0000_0001, i64::MAX - 1, i64::MAX];
         for number in ends.into_iter().flat_map(|number| [number, -number, -1 - number]) {
             for divisor in [1, 2, 3, 10, 1000, 0x8000_0000, 0xFFFF_FFFF] {
                 let expected = number.div_euclid(i64::from(divisor));

@@ -92,11 +92,19 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
     /// # Errors
     /// [`TooManyPdos`]: none of them is left out in silence.
     pub fn new(table: &Table<'_>) -> Result<Self, TooManyPdos> {
+        Self::check(table)?;
+        Ok(Self::resting())
+    }
+
+    /// Whether there is room for the PDOs of a table.
+    pub(crate) fn check(table: &Table<'_>) -> Result<(), TooManyPdos> {
         let (transmit, receive) = (transmit_pdos(table).len(), receive_pdos(table).len());
-        if transmit > T || receive > R {
-            return Err(TooManyPdos { transmit, receive });
-        }
-        Ok(Self {
+        if transmit > T || receive > R { Err(TooManyPdos { transmit, receive }) } else { Ok(()) }
+    }
+
+    /// An engine that rests.
+    pub(crate) const fn resting() -> Self {
+        Self {
             transmit: [Transmit::NEW; T],
             transmitted: [Mapping::NEW; T],
             receive: [Receive::NEW; R],
@@ -105,7 +113,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
             sync: SyncLength::Right,
             synced: None,
             first: 0,
-        })
+        }
     }
 
     /// The node becomes operational: PDOs begin.

@@ -69,7 +69,11 @@ impl<'t> VirtualNode<'t> {
         let table = dictionary.table();
         let sdo_buffer = vec![0; table.largest_value()];
         let room = Room { tpdos: UpTo, rpdos: UpTo, errors: UpTo, watched: UpTo, sdo_buffer };
-        let node = Box::new(Node::new(table, Some(id), room).map_err(NoNode::Room)?);
+        // With room for all PDOs that there can be it is large, and no combinator moves it once more.
+        let node = match Node::new(table, Some(id), room) {
+            Ok(node) => Box::new(node),
+            Err(room) => return Err(NoNode::Room(room)),
+        };
         Ok(Self { node, host: Host::new(&dictionary), dictionary, further: Vec::new() })
     }
 
