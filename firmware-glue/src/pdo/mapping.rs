@@ -18,7 +18,7 @@ use crate::value::number::unsigned;
 const KEPT: u8 = 8;
 
 /// A mapping as it was when it was used last.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Mapping {
     /// Mapped entries; 0 if none are resolved.
     count: u8,
@@ -57,7 +57,7 @@ enum Packing {
 }
 
 /// A mapped entry.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct Field {
     row: Row,
     /// Its place in the image, of the kinds that have one.
@@ -93,7 +93,7 @@ impl Mapping {
         watched: None,
         cob_id: 0,
         parameters: [0; KEPT as usize / 2],
-        fields: [Field { row: 0, place: 0, kind: Kind::Dummy, first: 0, bits: 0 }; KEPT as usize],
+        fields: [Field::NONE; KEPT as usize],
         places: [0; KEPT as usize],
     };
 
@@ -371,11 +371,13 @@ fn watched<'t, D: Dictionary<'t>>(dictionary: &D, pdo: &Pdo<'_>, count: u8) -> O
 }
 
 impl Field {
+    const NONE: Self = Self { row: 0, place: 0, kind: Kind::Dummy, first: 0, bits: 0 };
+
     /// The field of a mapping parameter; `None` if it maps what is not there.
     fn of<'t, D: Dictionary<'t>>(dictionary: &D, mapped: Mapped, first: u8) -> Option<Self> {
         let bits = u8::try_from(mapped.bits).ok()?;
         if mapped.is_dummy() {
-            return Some(Self { row: 0, place: 0, kind: Kind::Dummy, first, bits });
+            return Some(Self { first, bits, ..Self::NONE });
         }
         let table = dictionary.table();
         let found = table.search(mapped.index, mapped.sub).ok()?;
@@ -395,6 +397,7 @@ impl Field {
 
     /// Writes a value from a frame, which the entry takes whatever it is.
     #[inline]
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "the frame stays where it is")]
     fn put_bytes<'t, const N: usize, D: Dictionary<'t>, A: Application<D>>(
         &self,
         frame: &[u8; 8],
@@ -407,6 +410,7 @@ impl Field {
 
     /// Writes the value from a frame, with every check.
     #[inline(never)]
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "as above")]
     fn put_other<'t, D: Dictionary<'t>, A: Application<D>>(
         &self,
         frame: &[u8; 8],

@@ -5,6 +5,8 @@
 //! bucket to a place of its own, so that a search is one look, however many objects there are and however their indices
 //! lie apart.
 
+#![expect(clippy::inline_always, reason = "as in the module above")]
+
 /// Indices of a block.
 const SIZE: u16 = 32;
 const SIZE_BITS: u32 = SIZE.trailing_zeros();

@@ -1,5 +1,10 @@
 //! The table of a dictionary: what every entry is and where its value lies.
 
+#![expect(
+    clippy::inline_always,
+    reason = "only where it is inlined, the compiler finds an entry of a constant index by itself"
+)]
+
 mod checked;
 mod directory;
 pub(crate) mod entry;

@@ -5,10 +5,10 @@ use core::cmp::Ordering;
 use crate::access::dictionary::Dictionary;
 use crate::bus::clock::Instant;
 use crate::bus::frame::Frame;
-use crate::pdo::engine::Contents;
 use crate::pdo::engine::event::{PdoEvent, PdoHandler};
 use crate::pdo::engine::settings::{Settings, Transmission};
 use crate::pdo::engine::window::{Moment, Window};
+use crate::pdo::engine::{Contents, number};
 use crate::pdo::{PdoError, Received};
 
 /// What is known of an RPDO beyond its parameters.
@@ -135,13 +135,13 @@ impl Receive {
     #[inline(never)]
     fn take<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
-        contents: Contents<'_>,
+        Contents { pdo, mapping }: Contents<'_>,
         data: &[u8],
         dictionary: &mut D,
         application: &mut A,
     ) {
-        let number = contents.number();
-        match contents.mapping.unpack(contents.pdo, data, dictionary, application) {
+        let number = number(pdo);
+        match mapping.unpack(pdo, data, dictionary, application) {
             Ok(Received { refused, .. }) => {
                 application.pdo_event(dictionary, PdoEvent::Received { number, refused });
             }

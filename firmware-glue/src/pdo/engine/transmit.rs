@@ -4,10 +4,10 @@ use crate::access::dictionary::Dictionary;
 use crate::bus::clock::Instant;
 use crate::bus::frame::Frame;
 use crate::pdo;
-use crate::pdo::engine::Contents;
 use crate::pdo::engine::event::{PdoEvent, PdoHandler};
 use crate::pdo::engine::settings::{RemoteFrames, Settings, Transmission};
 use crate::pdo::engine::window::{Moment, Window};
+use crate::pdo::engine::{Contents, number};
 
 /// What is known of a TPDO beyond its parameters.
 #[derive(Debug, Clone, Copy)]
@@ -203,15 +203,14 @@ impl Transmit {
 /// The values of now, by the present mapping. One function for all that call it.
 #[inline(never)]
 fn pack<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
-    contents: Contents<'_>,
+    Contents { pdo, mapping }: Contents<'_>,
     dictionary: &mut D,
     application: &mut A,
 ) -> Option<pdo::Frame> {
-    let number = contents.number();
-    match contents.mapping.pack(contents.pdo, dictionary, application) {
+    match mapping.pack(pdo, dictionary, application) {
         Ok(frame) => Some(frame),
         Err(error) => {
-            application.pdo_event(dictionary, PdoEvent::NotSent { number, error });
+            application.pdo_event(dictionary, PdoEvent::NotSent { number: number(pdo), error });
             None
         }
     }

@@ -61,7 +61,7 @@ impl Expedited {
 
     /// The four bytes in which the value is.
     #[inline]
-    pub(crate) const fn four(&self) -> [u8; 4] {
+    pub(crate) const fn four(self) -> [u8; 4] {
         self.bytes
     }
 

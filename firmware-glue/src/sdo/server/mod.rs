@@ -218,6 +218,10 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
 
     /// The same, beyond short values that are read: those that are written.
     #[inline(never)]
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "the frame stays where it is, and of it is loaded what counts"
+    )]
     fn handle_other<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
         bytes: &[u8; 8],
@@ -239,6 +243,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
 
     /// The same, for transfers of several frames.
     #[inline(never)]
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "as above")]
     fn handle_longer<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
         bytes: &[u8; 8],
