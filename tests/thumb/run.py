@@ -83,10 +83,11 @@ PROGRAMS = {
 }
 # Bytes of flash and RAM, a little above what is measured: a change that costs more has to say so here.
 BUDGETS = {
-    "services150": (23_000, 2_000),
-    "node150": (32_000, 2_800),
-    "node-pmc": (45_500, 3_000),
-    "sdo": (18_500, 800),
+    "sdo": (17_300, 800),
+    "services150": (23_000, 2_800),
+    "node150": (28_000, 3_100),
+    "node-full150": (33_600, 3_150),
+    "node-pmc": (36_000, 2_700),
 }
 ENTRY_ROW = 4  # bytes of an item of ENTRIES
 PEER = "the best of the peers at 150 objects, in an earlier study", 69, 26  # flash per object, per entry
