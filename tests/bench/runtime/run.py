@@ -31,8 +31,6 @@ OPERATIONS = (
     "read record",
     "write record",
     "read array element",
-    "read string",
-    "write string",
     "find",
     "find, missing sub-index",
     "typed read",

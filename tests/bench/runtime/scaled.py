@@ -337,7 +337,7 @@ def eds_entry(entry: Entry) -> str:
 def rs(model: str, indices: list[int]) -> Iterator[str]:
     """A value of the bench's `Model`."""
     mapped = [index for index, _, _ in (*transmit(indices), receive(indices)[1])]
-    lists = {"setpoints": 0, "records": 6, "arrays": 8, "strings": 9}
+    lists = {"setpoints": 0, "records": 6, "arrays": 8}
     fields = [f"{name}: &[{numbers(indices[first::BLOCK])}]" for name, first in lists.items()]
     fields += [f"position: 0x{indices[5]:04X}", f"mapped: [{numbers(mapped)}]"]
     yield f'Model {{ name: "{model}", {", ".join(fields)} }}\n'

@@ -58,14 +58,6 @@ impl<const N: usize> Dictionary for CanopenRs<N> {
         self.od.write(address, value).is_ok()
     }
 
-    fn read_text(&self, _: u16, _: &mut [u8; crate::model::TEXT]) -> Option<usize> {
-        None
-    }
-
-    fn write_text(&mut self, _: u16, _: &[u8]) -> bool {
-        false
-    }
-
     fn find(&self, index: u16, sub: u8) -> bool {
         black_box(self.od.entry(Address::new(index, sub))).is_some()
     }

@@ -2,7 +2,7 @@
 //!
 //! One iteration does an operation for 1024 keys, so that neither the loop nor the clock counts;
 //! `run.py` divides. Keys are drawn from the scalars of type u16, the same ones for all contenders; from
-//! records, arrays and strings where an operation is about them.
+//! records and arrays where an operation is about them.
 //! What is measured is throughput: the processor may begin an operation before the last has ended.
 
 use std::hint::black_box;
@@ -31,8 +31,6 @@ mod model {
     /// The sub-index of a record that is a u16, and the elements of an array.
     pub const GAIN: u8 = 1;
     pub const ELEMENTS: u8 = 8;
-    /// Characters of a string.
-    pub const TEXT: usize = 16;
     /// An index without an object.
     pub const FREE: u16 = 0x9FFF;
 }
@@ -46,12 +44,6 @@ trait Dictionary {
 
     /// Writes a u16 as an SDO server would: access right and length checked.
     fn write(&mut self, index: u16, sub: u8, bytes: [u8; 2]) -> bool;
-
-    /// Reads a string by its index, as an SDO server would; its length.
-    fn read_text(&self, index: u16, buffer: &mut [u8; model::TEXT]) -> Option<usize>;
-
-    /// Writes a string, as an SDO server would.
-    fn write_text(&mut self, index: u16, text: &[u8]) -> bool;
 
     /// Finds what is known about an entry; an implementation puts it into a `black_box`.
     fn find(&self, index: u16, sub: u8) -> bool;
@@ -86,19 +78,11 @@ fn assert_works(dictionary: &mut impl Dictionary, model: &Model, keys: &[u16]) {
     }
     assert!(!dictionary.find(model::FREE, 0) && !dictionary.find(first, 1));
     assert!(!dictionary.write(model.position, 0, [0; 2]), "a read-only entry was written");
-    let (record, array, string) = (model.records[0], model.arrays[0], model.strings[0]);
+    let (record, array) = (model.records[0], model.arrays[0]);
     assert!(dictionary.write(record, model::GAIN, [7, 0]));
     assert_eq!(dictionary.read(record, model::GAIN), Some([7, 0]));
     assert_eq!(dictionary.read(array, model::ELEMENTS), Some([0, 0]));
     assert!(!dictionary.write(array, model::ELEMENTS, [0; 2]), "a read-only element was written");
-    let mut text = [0; model::TEXT];
-    if dictionary.read_text(string, &mut text).is_some() {
-        assert!(dictionary.write_text(string, b"another"));
-        assert_eq!(
-            dictionary.read_text(string, &mut text).map(|length| &text[..length]),
-            Some(&b"another"[..])
-        );
-    }
     if dictionary.unpack(&[0x34, 0x12, 1, 2, 3, 4]).is_some() {
         assert_eq!(dictionary.read(mapped, 0), Some([0x34, 0x12]));
     }
@@ -129,7 +113,7 @@ fn measure<D: Dictionary>(criterion: &mut Criterion, model: &Model, dictionary: 
             black_box(dictionary.write(black_box(index), black_box(0), black_box(index).to_le_bytes()));
         }
     });
-    let (records, arrays, strings) = (keys_of(model.records), keys_of(model.arrays), keys_of(model.strings));
+    let (records, arrays) = (keys_of(model.records), keys_of(model.arrays));
     bench("read record", &mut || {
         for &index in &records {
             black_box(dictionary.read(black_box(index), black_box(model::GAIN)));
@@ -146,20 +130,6 @@ fn measure<D: Dictionary>(criterion: &mut Criterion, model: &Model, dictionary: 
             black_box(dictionary.read(black_box(index), black_box(number + 1)));
         }
     });
-    if dictionary.read_text(model.strings[0], &mut [0; model::TEXT]).is_some() {
-        bench("read string", &mut || {
-            for &index in &strings {
-                let mut text = [0; model::TEXT];
-                black_box(dictionary.read_text(black_box(index), &mut text));
-                black_box(text);
-            }
-        });
-        bench("write string", &mut || {
-            for &index in &strings {
-                black_box(dictionary.write_text(black_box(index), black_box(b"CH-00001")));
-            }
-        });
-    }
     bench("find", &mut || {
         for &index in &keys {
             black_box(dictionary.find(black_box(index), black_box(0)));

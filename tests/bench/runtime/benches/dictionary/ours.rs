@@ -34,16 +34,6 @@ macro_rules! models {
                     self.0.write(index, sub, &bytes, &mut ()).is_ok()
                 }
 
-                fn read_text(&self, index: u16, buffer: &mut [u8; crate::model::TEXT]) -> Option<usize> {
-                    let value = self.0.read(index, 0).ok()?;
-                    buffer.get_mut(..value.len())?.copy_from_slice(&value);
-                    Some(value.len())
-                }
-
-                fn write_text(&mut self, index: u16, text: &[u8]) -> bool {
-                    self.0.write(index, 0, text, &mut ()).is_ok()
-                }
-
                 fn find(&self, index: u16, sub: u8) -> bool {
                     // with access and size, which the peers' lookups give
                     black_box(self.0.info_at(index, sub)).is_ok()

@@ -59,20 +59,6 @@ impl<F: Fn() -> u16> Dictionary for Zencan<F> {
         object.write(sub, &bytes).is_ok()
     }
 
-    fn read_text(&self, index: u16, buffer: &mut [u8; crate::model::TEXT]) -> Option<usize> {
-        find_object(self.table, index)?.read(0, 0, buffer).ok()
-    }
-
-    fn write_text(&mut self, index: u16, text: &[u8]) -> bool {
-        // the steps of zencan's SDO server
-        let Some(object) = find_object(self.table, index) else { return false };
-        let Ok(info) = object.sub_info(0) else { return false };
-        if !info.access_type.is_writable() || text.len() > info.size {
-            return false;
-        }
-        object.write(0, text).is_ok()
-    }
-
     fn find(&self, index: u16, sub: u8) -> bool {
         find_object(self.table, index).and_then(|object| black_box(object.sub_info(sub)).ok()).is_some()
     }

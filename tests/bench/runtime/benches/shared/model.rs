@@ -6,10 +6,9 @@ pub struct Model {
     pub name: &'static str,
     /// Indices of all setpoints, the only scalars of type u16.
     pub setpoints: &'static [u16],
-    /// Indices of all records whose sub-index 1 is a u16, of all arrays u16[8], and of all strings.
+    /// Indices of all records whose sub-index 1 is a u16, and of all arrays u16[8].
     pub records: &'static [u16],
     pub arrays: &'static [u16],
-    pub strings: &'static [u16],
     /// Index of a position, which is read-only.
     pub position: u16,
     /// Indices of the setpoint and position that TPDO 1 maps, and of the speed that RPDO 1 maps with the setpoint.
