@@ -75,8 +75,8 @@ pub trait Dictionary<'t>: Entries {
     /// Whether the write condition of this number holds now.
     fn condition(&self, number: u16) -> bool;
 
-    /// Whether the device is an LSS slave. Of a generated dictionary, its specification decides; a [`Node`](crate::Node) whose device
-    /// is none leaves LSS out.
+    /// Whether the device is an LSS slave. Of a generated dictionary, its specification decides; the [`Node`](crate::Node) of a device
+    /// without LSS does not answer an LSS master.
     #[inline]
     fn is_lss_slave(&self) -> bool {
         true

@@ -1,7 +1,7 @@
 //! The mapping of a PDO, resolved: where its values lie, so that a frame needs no search.
 //!
-//! The mapping parameters in the dictionary stay the only description. Whoever changes them, a client, a store or the firmware, tells
-//! nobody: they are compared with those that were resolved whenever the mapping is used, a word each.
+//! The mapping parameters in the dictionary stay the only description. A client, a store or the firmware changes them without a report
+//! to the engine, so they are compared with those that were resolved whenever the mapping is used, two at a time.
 
 use crate::abort::AbortCode;
 use crate::access::application::Application;
@@ -480,7 +480,7 @@ mod tests {
             assert_eq!(rpdo.unpack(&mut device, &[1; 7], &mut ()).map(|received| received.refused), Ok(None));
             assert_eq!((read(&device, 0x2000), read(&device, 0x2001)), ([1].to_vec(), [1, 1].to_vec()));
 
-            // Nobody says that a parameter has changed.
+            // Nothing reports that a parameter has changed.
             for index in [0x1600, 0x1A00] {
                 set(&mut device, index, 2, 0x2000_0008);
                 set(&mut device, index, 0, 2);
@@ -520,7 +520,7 @@ mod tests {
     }
 
     #[test]
-    fn values_that_are_not_whole_bytes_move_those_behind_them() {
+    fn values_that_are_not_whole_bytes_move_those_after_them() {
         let mut device = device(&[0x2000_0004, 0x2001_0010], Storage::No);
         assert_eq!(*pdo::pack(&mut device, 1, &mut ()).expect("a mapping"), [0x21, 0x32, 0x03]);
         pdo::unpack(&mut device, 1, &[0xF5, 0xCD, 0x0A], &mut ()).expect("a mapping");

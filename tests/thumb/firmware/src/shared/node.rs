@@ -33,7 +33,7 @@ fn main() -> ! {
         NODE.make(node);
     }
     loop {
-        // Behind references, as a firmware passes them on: else the address of each field is a constant of its own.
+        // By reference, as a firmware passes them on: else the address of each field is a constant of its own.
         let (Some(node), Some(dictionary)) = (black_box(NODE.made()), black_box(DICTIONARY.made())) else {
             continue;
         };
