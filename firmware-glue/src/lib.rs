@@ -111,6 +111,7 @@ mod bus;
 pub mod emcy;
 #[doc(hidden)]
 pub mod generated_for_layout_1;
+mod late;
 pub mod lss;
 pub mod nmt;
 pub mod node;
@@ -134,6 +135,7 @@ pub use bus::{clock, frame};
 #[cfg(feature = "defmt")]
 pub use defmt;
 pub use emcy::error_register;
+pub use late::Late;
 pub use node::Node;
 pub use state_machine::StateMachine;
 pub use table::entry::{EntryId, Info};

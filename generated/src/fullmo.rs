@@ -6563,6 +6563,11 @@ impl firmware::Dictionary<'static> for Fullmo {
         let _ = number;
         true
     }
+
+    #[inline]
+    fn is_lss_slave(&self) -> bool {
+        false
+    }
 }
 
 impl firmware::Constrained for Fullmo {

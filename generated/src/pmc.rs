@@ -8418,6 +8418,11 @@ impl firmware::Dictionary<'static> for Pmc {
             _ => true,
         }
     }
+
+    #[inline]
+    fn is_lss_slave(&self) -> bool {
+        false
+    }
 }
 
 impl firmware::Constrained for Pmc {

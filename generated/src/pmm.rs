@@ -7956,6 +7956,11 @@ impl firmware::Dictionary<'static> for Pmm {
         let _ = number;
         true
     }
+
+    #[inline]
+    fn is_lss_slave(&self) -> bool {
+        false
+    }
 }
 
 impl firmware::Constrained for Pmm {

@@ -25,7 +25,7 @@ pub(crate) fn correct(table: &Table<'_>, image: &mut [u8], part: &Range<usize>, 
         reset(table, image, &place, node_id);
         // Half a mapping would give values to entries that they are not for.
         for object in pdo_of(table.id(row).index).into_iter().flatten() {
-            let rows = table.object(object).unwrap_or_default();
+            let rows = table.search_object(object).unwrap_or_default();
             for place in rows.filter_map(|row| table.found(row).place_in_image()) {
                 reset(table, image, &place, node_id);
             }

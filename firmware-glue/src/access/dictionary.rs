@@ -12,6 +12,7 @@ use crate::table::entry::Info;
 use crate::table::stored::{put, reset, value_of};
 use crate::table::{Alias, Attributes, Flags, Found, NONE, Place, Region, Row, Storage, Table};
 use crate::value::Value;
+use crate::value::image;
 use crate::value::number::number;
 
 /// A dictionary: values in a byte image, everything else in a table that lives for `'t`, of generated code for `'static`. The
@@ -73,6 +74,13 @@ pub trait Dictionary<'t>: Entries {
 
     /// Whether the write condition of this number holds now.
     fn condition(&self, number: u16) -> bool;
+
+    /// Whether the device is an LSS slave. Of a generated dictionary, its specification decides; the [`Node`](crate::Node) of a device
+    /// without LSS does not answer an LSS master.
+    #[inline]
+    fn is_lss_slave(&self) -> bool {
+        true
+    }
 
     /// The entry at an index and sub-index.
     ///
@@ -282,7 +290,7 @@ pub(crate) fn readable<'t, D: Dictionary<'t>, A: Application<D>>(
     application: &mut A,
 ) -> Result<Found<'t>, AbortCode> {
     let table = dictionary.table();
-    let found = table.lookup(index, sub)?;
+    let found = table.search(index, sub)?;
     if !found.shared.flags.has(Flags::READ) {
         return Err(AbortCode::WRITE_ONLY);
     }
@@ -291,6 +299,15 @@ pub(crate) fn readable<'t, D: Dictionary<'t>, A: Application<D>>(
         communication::history_has(table, dictionary.image(), sub)?;
     }
     Ok(found)
+}
+
+/// The value of an entry, whatever its access: one function for services that are not in a hurry.
+#[inline(never)]
+pub(crate) fn value<'t: 'v, 'v, D: Dictionary<'t>>(
+    dictionary: &'v D,
+    found: Found<'t>,
+) -> Result<Value<'v>, AbortCode> {
+    value_of(dictionary.table(), dictionary.image(), found)
 }
 
 /// Gives the application the chance to bring a value up to date.
@@ -379,6 +396,22 @@ pub(crate) fn write_row<'t, D: Dictionary<'t>, A: Application<D>>(
         Effect::Command => {}
     }
     Ok(entry)
+}
+
+/// Writes an entry that [takes](Table::is_free) every value of its length, which this is.
+#[inline]
+pub(crate) fn put_free<'t, const N: usize, D: Dictionary<'t>, A: Application<D>>(
+    dictionary: &mut D,
+    row: Row,
+    place: usize,
+    value: [u8; N],
+    application: &mut A,
+) -> Result<(), AbortCode> {
+    let entry = dictionary.entry(row).ok_or(AbortCode::INTERNAL)?;
+    application.accept(dictionary, entry, &value)?;
+    image::put(dictionary.image_mut(), place, value);
+    application.changed(dictionary, entry);
+    Ok(())
 }
 
 /// The entry that holds a value, and what it gets.

@@ -107,6 +107,7 @@ impl fmt::Display for Duration {
 }
 
 /// The earlier of two points in time, of which either may be missing.
+#[inline(never)]
 pub fn earlier(one: Option<Instant>, other: Option<Instant>) -> Option<Instant> {
     match (one, other) {
         (Some(one), Some(other)) => Some(one.min(other)),

@@ -8,14 +8,15 @@
 //! assert_eq!(emergency.register(), ErrorRegister::GENERIC.with(ErrorRegister::TEMPERATURE));
 //! ```
 
+use core::ops::Range;
+
 use crate::access::communication::cob_id::valid_id;
 use crate::access::dictionary::Dictionary;
-use crate::access::parameters::{Parameters, set};
+use crate::access::parameters::{Parameters, set, set_at};
 use crate::bus::clock::{Duration, Instant};
 use crate::bus::frame::{CanId, Frame};
 use crate::bus::node_id::NodeId;
 use crate::emcy::error_register::{DeviceError, ErrorRegister};
-use crate::table::Row;
 use crate::table::stored::at_row;
 
 /// An error of the device.
@@ -97,13 +98,12 @@ impl Emergency {
 
 /// An emergency of another node that the dictionary listens to, and whose it is: sub-index n of 1028h has the COB-ID of node n.
 pub fn heard<'t, D: Dictionary<'t>>(frame: &Frame, dictionary: &D) -> Option<(NodeId, Emergency)> {
-    let emergency = Emergency::from_frame(frame)?;
     let table = dictionary.table();
-    let rows = table.object(0x1028).ok()?;
-    let is_it = |row: &Row| {
-        at_row(table, dictionary.image(), table.found(*row)).and_then(valid_id) == Some(frame.id())
-    };
-    let node = NodeId::new(table.id(rows.into_iter().find(is_it)?).sub)?;
+    let mut rows = table.object(0x1028).ok()?;
+    let emergency = Emergency::from_frame(frame)?;
+    let is_it =
+        |row: u16| at_row(table, dictionary.image(), table.found(row)).and_then(valid_id) == Some(frame.id());
+    let node = NodeId::new(table.id(rows.find(|row| is_it(*row))?).sub)?;
     Some((node, emergency))
 }
 
@@ -147,7 +147,9 @@ pub struct EmergencyProducer<const N: usize> {
     present: [Option<Emergency>; N],
     /// Bits of errors that there was no room for.
     others: ErrorRegister,
+    /// Messages that wait, from `first` on in a ring.
     waiting: [Message; N],
+    first: usize,
     waits: usize,
     sent: Option<Instant>,
     dropped: u32,
@@ -167,6 +169,7 @@ impl<const N: usize> EmergencyProducer<N> {
             present: [None; N],
             others: ErrorRegister::NONE,
             waiting: [Message::EMPTY; N],
+            first: 0,
             waits: 0,
             sent: None,
             dropped: 0,
@@ -267,9 +270,8 @@ impl<const N: usize> EmergencyProducer<N> {
         if now < self.next_deadline(dictionary)? {
             return None;
         }
-        let Message(bytes) = *self.waiting.first()?;
-        self.waiting.rotate_left(1);
-        self.waits = self.waits.saturating_sub(1);
+        let Message(bytes) = *self.waiting.get(self.first)?;
+        self.drop_first();
         self.sent = Some(now);
         Some(Frame::full(id, bytes))
     }
@@ -286,16 +288,19 @@ impl<const N: usize> EmergencyProducer<N> {
     fn wait(&mut self, message: Message) {
         if self.waits == N {
             self.dropped = self.dropped.saturating_add(1);
-            if N == 0 {
-                return;
-            }
-            self.waiting.rotate_left(1);
-            self.waits = self.waits.saturating_sub(1);
+            self.drop_first();
         }
-        if let Some(place) = self.waiting.get_mut(self.waits) {
+        let after = self.first + self.waits;
+        if let Some(place) = self.waiting.get_mut(if after < N { after } else { after - N }) {
             *place = message;
             self.waits += 1;
         }
+    }
+
+    /// The message that waits longest is sent, or lost.
+    fn drop_first(&mut self) {
+        self.first = if self.first + 1 < N { self.first + 1 } else { 0 };
+        self.waits = self.waits.saturating_sub(1);
     }
 }
 
@@ -307,14 +312,17 @@ fn identifier<'t, D: Dictionary<'t>>(dictionary: &D) -> Option<CanId> {
 /// Puts an error at the top of the history (1003h): the newest is sub-index 1, the oldest is lost when there is no room. A client
 /// clears it by writing 0 to the number of errors.
 fn remember<'t, D: Dictionary<'t>>(dictionary: &mut D, emergency: Emergency) {
-    let Ok(rows) = dictionary.table().object(0x1003) else { return };
-    let room = u8::try_from(rows.len().saturating_sub(1)).unwrap_or(u8::MAX);
+    let table = dictionary.table();
+    let Ok(Range { start: number, end }) = table.object(0x1003) else { return };
+    let room = u8::try_from(end.saturating_sub(number + 1)).unwrap_or(u8::MAX);
     let filled = Parameters::of(dictionary).byte(0x1003, 0).saturating_add(1).min(room);
-    for sub in (2..=filled).rev() {
-        let newer = Parameters::of(dictionary).number(0x1003, sub - 1).unwrap_or_default();
-        set(dictionary, 0x1003, sub, newer);
+    let mut newer = line(emergency);
+    for row in (number..).skip(1).take(filled.into()) {
+        let found = table.found(row);
+        let older = at_row(table, dictionary.image(), found).unwrap_or_default();
+        set_at(dictionary.image_mut(), found, newer);
+        newer = older;
     }
-    set(dictionary, 0x1003, 1, line(emergency));
     set(dictionary, 0x1003, 0, filled.into());
 }
 

@@ -9,7 +9,7 @@ use crate::bus::clock::{Duration, Instant};
 use crate::bus::frame::{CanId, Frame};
 use crate::bus::node_id::NodeId;
 
-/// Identifier of the master's requests. [`Node`](crate::Node) answers them: a device without LSS leaves out frames with it.
+/// Identifier of the master's requests. A [`Node`](crate::Node) answers them if its device [has LSS](crate::Dictionary::is_lss_slave).
 pub const REQUEST: u16 = 0x7E5;
 /// Identifier of the slave's answers.
 const ANSWER: u16 = 0x7E4;

@@ -97,6 +97,9 @@ impl<const N: usize> Consumer<N> {
         dictionary: &D,
         now: Instant,
     ) -> Option<NodeEvent> {
+        if !Parameters::of(dictionary).has(0x1016) {
+            return None;
+        }
         let node = node_of(frame.id(), ERROR_CONTROL)?;
         let Some(&[code]) = frame.bytes() else { return None };
         let state = State::of_code(code);
@@ -121,6 +124,9 @@ impl<const N: usize> Consumer<N> {
 
     /// A node that has been silent for too long; to be called until there is none.
     pub fn poll<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, now: Instant) -> Option<NodeEvent> {
+        if !Parameters::of(dictionary).has(0x1016) {
+            return None;
+        }
         self.read(dictionary);
         self.watched.iter_mut().find_map(|watched| {
             let (node, _) = watched.target()?;
@@ -156,7 +162,7 @@ impl<const N: usize> Consumer<N> {
         let parameters = Parameters::of(dictionary);
         let count = parameters.byte(0x1016, 0);
         for (sub, watched) in (1..=u8::MAX).zip(&mut self.watched) {
-            let entry = if sub <= count { parameters.number(0x1016, sub) } else { None };
+            let entry = if sub <= count { parameters.searched(0x1016, sub) } else { None };
             watched.update(entry.unwrap_or_default());
         }
     }

@@ -49,6 +49,7 @@ pub use handler::{Event, NodeHandler, Reset};
 pub use room::{NoRoom, Room, UpTo};
 
 use crate::access::dictionary::Dictionary;
+use crate::access::parameters::Parameters;
 use crate::bus::clock::{Instant, earlier};
 use crate::bus::frame::Frame;
 use crate::bus::node_id::NodeId;
@@ -98,12 +99,14 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if watched > WATCHED {
             return Err(NoRoom::Watched(watched));
         }
+        // Before the node is made: what is large is moved as little as can be.
+        PdoEngine::<T, R>::check(table).map_err(NoRoom::Pdos)?;
         Ok(Self {
             nmt: Nmt::new(),
             restart: Some(Reset::Node),
             control: ErrorControl::new(),
             consumer: Consumer::new(),
-            pdos: PdoEngine::new(table).map_err(NoRoom::Pdos)?,
+            pdos: PdoEngine::resting(),
             sync: SyncProducer::new(),
             emergencies: EmergencyProducer::new(),
             sdo: SdoServer::new(NO_CHANNEL, room.sdo_buffer),
@@ -190,13 +193,14 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         now: Instant,
     ) -> Option<Frame> {
         // Not while the node works: LSS sets up, and may switch the bit rate.
-        if self.state() != State::Operational
+        if dictionary.is_lss_slave()
+            && self.state() != State::Operational
             && let Some(answer) = self.lss.handle(frame, Identity::of(dictionary), application, now)
         {
             return Some(answer);
         }
         let id = self.id?;
-        if self.restart.is_some() || self.lss.is_silent() {
+        if self.restart.is_some() || self.is_silent(dictionary) {
             return None;
         }
         if let Some(command) = Command::of(frame, id) {
@@ -226,7 +230,9 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if !self.state().allows(Service::Sdo) {
             return None;
         }
-        self.sdo.handle(frame, dictionary, application, now)
+        // The type of application that PDOs have: what is written is checked by the same code.
+        let emergencies = &mut self.emergencies;
+        self.sdo.handle(frame, dictionary, &mut WithEmergencies { application, emergencies }, now)
     }
 
     /// A frame that is to be sent now; to be called until there is none.
@@ -236,21 +242,11 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         application: &mut A,
         now: Instant,
     ) -> Option<Frame> {
-        while let Some(event) = self.lss.poll(now) {
-            if event == LssEvent::Switched {
-                // All were silent: a watched node is watched from the next frame on.
-                self.consumer = Consumer::new();
-                self.control.forget_master();
-            }
-            application.node_event(dictionary, Event::Lss(event));
-        }
-        // A node that had no node-ID starts as soon as the master has given it one and lets it go.
-        if self.id.is_none() && self.lss.pending().is_some() && self.lss.state() == LssState::Waiting {
-            self.restart = Some(Reset::Node);
-            self.id = self.lss.pending();
+        if dictionary.is_lss_slave() {
+            self.poll_lss(dictionary, application, now);
         }
         let id = self.id?;
-        if self.lss.is_silent() {
+        if self.is_silent(dictionary) {
             return None;
         }
         if let Some(reset) = self.restart.take() {
@@ -276,35 +272,61 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
         if let Some(frame) = pdo.or_else(|| self.emergency(dictionary, now)) {
             return Some(frame);
         }
-        if self.state().allows(Service::Sdo) { self.sdo.poll(dictionary, application, now) } else { None }
+        if !self.state().allows(Service::Sdo) {
+            return None;
+        }
+        let emergencies = &mut self.emergencies;
+        self.sdo.poll(dictionary, &mut WithEmergencies { application, emergencies }, now)
+    }
+
+    /// Does what is due of LSS.
+    fn poll_lss<'t, D: Dictionary<'t>, A: NodeHandler<D>>(
+        &mut self,
+        dictionary: &mut D,
+        application: &mut A,
+        now: Instant,
+    ) {
+        while let Some(event) = self.lss.poll(now) {
+            if event == LssEvent::Switched {
+                // All were silent: a watched node is watched from the next frame on.
+                self.consumer = Consumer::new();
+                self.control.forget_master();
+            }
+            application.node_event(dictionary, Event::Lss(event));
+        }
+        // A node that had no node-ID starts as soon as the master has given it one and lets it go.
+        if self.id.is_none() && self.lss.pending().is_some() && self.lss.state() == LssState::Waiting {
+            self.restart = Some(Reset::Node);
+            self.id = self.lss.pending();
+        }
+    }
+
+    /// Whether LSS switches the bit rate.
+    fn is_silent<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> bool {
+        dictionary.is_lss_slave() && self.lss.is_silent()
     }
 
     /// When there is something to do next, unless a frame comes or something happens before; a time that has passed means at once.
     pub fn next_deadline<'t, D: Dictionary<'t>>(&self, dictionary: &D) -> Option<Instant> {
-        let lss = self.lss.next_deadline();
-        if self.lss.is_silent() || self.id.is_none() {
+        let lss = if dictionary.is_lss_slave() { self.lss.next_deadline() } else { None };
+        if self.is_silent(dictionary) || self.id.is_none() {
             return lss;
         }
         if self.restart.is_some() {
             return Some(Instant::ZERO);
         }
-        let reported = if self.state().allows(Service::Emergency) {
-            self.emergencies.next_deadline(dictionary)
-        } else {
-            None
-        };
-        let sync =
-            if self.state().allows(Service::Sync) { self.sync.next_deadline(dictionary) } else { None };
-        [
-            sync,
-            self.control.next_deadline(dictionary),
-            self.consumer.next_deadline(),
-            self.pdos.next_deadline(dictionary),
-            self.sdo.next_deadline(),
-            reported,
-        ]
-        .into_iter()
-        .fold(lss, earlier)
+        let mut next = earlier(lss, self.control.next_deadline(dictionary));
+        if Parameters::of(dictionary).has(0x1016) {
+            next = earlier(next, self.consumer.next_deadline());
+        }
+        if self.state().allows(Service::Emergency) {
+            next = earlier(next, self.emergencies.next_deadline(dictionary));
+        }
+        if self.state().allows(Service::Sync) {
+            next = earlier(next, self.sync.next_deadline(dictionary));
+        }
+        next = earlier(next, self.pdos.next_deadline(dictionary));
+        earlier(next, self.sdo.next_deadline())
     }
 
     /// An emergency message that is to be sent now.
@@ -332,7 +354,8 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>, const T: usize, const R: usize, const ERRORS:
             self.communication_error(dictionary, application, now);
             application.node_event(dictionary, Event::Guarding(event));
         }
-        if !self.consumer.is_any_lost() && !self.control.is_lost() {
+        let is_any_lost = Parameters::of(dictionary).has(0x1016) && self.consumer.is_any_lost();
+        if !is_any_lost && !self.control.is_lost() {
             self.emergencies.clear(dictionary, Emergency::HEARTBEAT.code());
         }
         for (goes_on, error) in [

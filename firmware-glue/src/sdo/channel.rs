@@ -1,7 +1,8 @@
 //! The two identifiers of an SDO channel.
 
-use crate::access::communication::cob_id::{NOT_VALID, can_id};
+use crate::access::communication::cob_id::valid_id;
 use crate::access::dictionary::Dictionary;
+use crate::access::parameters::Parameters;
 use crate::bus::frame::CanId;
 use crate::bus::node_id::NodeId;
 
@@ -31,11 +32,7 @@ impl Channel {
         if number > 127 {
             return None;
         }
-        let identifier = |sub| {
-            let value = dictionary.read(index, sub).ok()?;
-            let cob_id = u32::from_le_bytes(value.bytes().try_into().ok()?);
-            if cob_id & NOT_VALID == 0 { can_id(cob_id) } else { None }
-        };
+        let identifier = |sub| Parameters::of(dictionary).searched(index, sub).and_then(valid_id);
         Some(Self { request: identifier(1)?, answer: identifier(2)? })
     }
 }

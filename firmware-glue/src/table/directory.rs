@@ -5,6 +5,8 @@
 //! bucket to a place of its own, so that a search is one look, however many objects there are and however their indices
 //! lie apart.
 
+#![expect(clippy::inline_always, reason = "as in the module above")]
+
 /// Indices of a block.
 const SIZE: u16 = 32;
 const SIZE_BITS: u32 = SIZE.trailing_zeros();
@@ -54,19 +56,19 @@ impl Block {
 }
 
 /// The hash of a block.
-#[inline]
+#[inline(always)]
 fn hash(number: u16) -> u32 {
     u32::from(number).wrapping_mul(SPREAD)
 }
 
 /// Another hash, which depends on a seed.
-#[inline]
+#[inline(always)]
 fn seeded(hash: u32, seed: u8) -> u32 {
     (hash ^ u32::from(seed) << 24).wrapping_mul(SPREAD)
 }
 
 /// The upper half of a hash, scaled to positions in a list.
-#[inline]
+#[inline(always)]
 fn scaled(hash: u32, length: usize) -> usize {
     let [_, _, low, high] = hash.to_le_bytes();
     usize::from(u16::from_le_bytes([low, high])).wrapping_mul(length) >> u16::BITS
@@ -112,7 +114,7 @@ impl<'t> Directory<'t> {
     }
 
     /// Where a block is, if it is there.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn place(&self, number: u16) -> Option<usize> {
         let hash = hash(number);
         let seed = *self.seeds.get(scaled(hash, self.seeds.len()))?;
@@ -120,7 +122,7 @@ impl<'t> Directory<'t> {
     }
 
     /// How many objects are before the one of an index, if there is one.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn position(&self, index: u16) -> Option<usize> {
         let number = index >> SIZE_BITS;
         let block = self.blocks.get(self.place(number)?)?;

@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::Range;
 
-use crate::table::{Attributes, Flags, Limits, Place, Row, Storage, Table};
+use crate::table::{Attributes, Flags, Limits, NONE, Place, Row, Storage, Table};
 use crate::value::data_type::DataType;
 use crate::value::text::prefix;
 
@@ -52,6 +52,11 @@ impl<'t> Found<'t> {
     #[inline]
     pub(crate) fn offset(self) -> usize {
         usize::from(self.shared.page) << 16 | usize::from(self.place)
+    }
+
+    /// Its offset, if that is below the number that is [`NONE`](crate::table::NONE).
+    pub(crate) fn near(self) -> Option<u16> {
+        u16::try_from(self.offset()).ok().filter(|place| *place != NONE)
     }
 }
 

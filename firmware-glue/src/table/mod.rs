@@ -1,5 +1,10 @@
 //! The table of a dictionary: what every entry is and where its value lies.
 
+#![expect(
+    clippy::inline_always,
+    reason = "only where it is inlined, the compiler finds an entry of a constant index by itself"
+)]
+
 mod checked;
 mod directory;
 pub(crate) mod entry;
@@ -78,8 +83,14 @@ impl<'t> Table<'t> {
         self.lookup(index, sub).map(|found| found.row)
     }
 
+    /// [`object`](Self::object) of an index that is not constant: one function for all that call it.
+    #[inline(never)]
+    pub(crate) fn search_object(&self, index: u16) -> Result<Range<Row>, AbortCode> {
+        self.object(index)
+    }
+
     /// The rows of an object.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn object(&self, index: u16) -> Result<Range<Row>, AbortCode> {
         let object = self.0.directory.position(index).ok_or(AbortCode::NO_OBJECT)?;
         match self.0.objects.get(object..).and_then(<[Row]>::first_chunk::<2>) {
@@ -94,7 +105,16 @@ impl<'t> Table<'t> {
     /// [`AbortCode::NO_OBJECT`], [`AbortCode::NO_SUB_INDEX`].
     #[inline]
     pub fn lookup(&self, index: u16, sub: u8) -> Result<Found<'t>, AbortCode> {
-        let Range { start: first, end } = self.object(index)?;
+        self.lookup_in(self.object(index)?, sub)
+    }
+
+    /// An entry of an object with these rows.
+    #[inline(always)]
+    pub(crate) fn lookup_in(
+        &self,
+        Range { start: first, end }: Range<Row>,
+        sub: u8,
+    ) -> Result<Found<'t>, AbortCode> {
         let row = first.saturating_add(u16::from(sub));
         if row < end {
             let found = self.found(row);
@@ -179,6 +199,19 @@ impl<'t> Table<'t> {
     #[inline]
     fn row(&self, row: Row) -> EntryRow {
         self.0.entries.get(usize::from(row)).copied().unwrap_or(EntryRow { attributes: NONE, place: 0 })
+    }
+
+    /// Whether an entry is a number in the image that takes every value of its length, whenever it is written.
+    #[inline]
+    pub(crate) fn is_free(&self, found: Found<'_>) -> bool {
+        let shared = found.shared;
+        // All bits of `NONE` are set.
+        shared.limits & shared.values & shared.condition == NONE
+            && shared.place == Place::Image
+            && !shared.flags.has(Flags::LOCKED)
+            && shared.data_type != DataType::Boolean
+            && !shared.data_type.is_string()
+            && found.row >= self.0.first_application_row
     }
 
     /// The alias that an entry is.

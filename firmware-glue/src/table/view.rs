@@ -101,7 +101,7 @@ impl View {
         let product = target.saturating_mul(self.numerator as i64);
         let denominator = self.denominator as i64;
         // A denominator of 0 would be a mistake of the generator, which a view then shows unscaled.
-        let Some(floor) = product.checked_div_euclid(denominator) else { return product };
+        let Some(floor) = floor(product, self.denominator) else { return product };
         let rest = product - floor * denominator;
         let up = match self.rounding {
             Rounding::Down => false,
@@ -122,16 +122,60 @@ impl View {
     pub const fn target(&self, value: i64) -> Result<i64, AbortCode> {
         let (numerator, denominator) = (self.numerator as i64, self.denominator as i64);
         let Some(product) = value.checked_mul(denominator) else { return Err(AbortCode::INVALID_VALUE) };
-        match product.checked_div(numerator) {
+        match floor(product, self.numerator) {
             Some(target) if target * numerator == product => Ok(target),
             _ => Err(AbortCode::INVALID_VALUE),
         }
     }
 }
 
+/// The quotient, rounded down; `None` of a division by 0.
+const fn floor(number: i64, divisor: u32) -> Option<i64> {
+    if divisor == 0 {
+        return None;
+    }
+    // -1 - n has the bits of n inverted, and the quotients of both are each other's inverse, too.
+    let sign = number >> 63;
+    Some(divide((number ^ sign).cast_unsigned(), divisor).cast_signed() ^ sign)
+}
+
+/// The quotient of a number below 2^63. A division of 64 bits is a kilobyte of code on a microcontroller of 32 bits: what has more bits is
+/// divided one bit after the other.
+#[expect(clippy::cast_possible_truncation, reason = "it was compared")]
+const fn divide(number: u64, divisor: u32) -> u64 {
+    if number <= u32::MAX as u64 {
+        return (number as u32 / divisor) as u64;
+    }
+    // The quotient comes from below into what is shifted out above.
+    let (mut number, mut rest, mut bits) = (number, 0u64, u64::BITS);
+    while bits > 0 {
+        rest = rest << 1 | number >> 63;
+        number <<= 1;
+        if rest >= divisor as u64 {
+            rest -= divisor as u64;
+            number |= 1;
+        }
+        bits -= 1;
+    }
+    number
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn quotients_are_those_of_the_processor() {
+        let ends =
+            [0, 1, 7, 1000, 0xFFFF_FFFE, 0xFFFF_FFFF, 0x1_0000_0000, 0x1_0000_0001, i64::MAX - 1, i64::MAX];
+        for number in ends.into_iter().flat_map(|number| [number, -number, -1 - number]) {
+            for divisor in [1, 2, 3, 10, 1000, 0x8000_0000, 0xFFFF_FFFF] {
+                let expected = number.div_euclid(i64::from(divisor));
+                assert_eq!(floor(number, divisor), Some(expected), "{number} / {divisor}");
+            }
+        }
+        assert_eq!(floor(1, 0), None);
+    }
 
     #[test]
     fn sixteen_bits_saturate_at_their_ends() {

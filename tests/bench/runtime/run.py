@@ -28,6 +28,9 @@ CONTENDERS = ("ours", "zencan", "canopen-rs")
 OPERATIONS = (
     "read u16",
     "write u16",
+    "read record",
+    "write record",
+    "read array element",
     "find",
     "find, missing sub-index",
     "typed read",

@@ -5,8 +5,8 @@
 
 `od` is a specification of this project, `toml` the device configuration of zencan-build, `eds` an
 electronic data sheet, which canopen-host turns into Rust, `rs` what the bench has to know of the model.
-MODEL says at which indices the objects are: `150` has 150 that follow each other, `gappy150` has every
-second index free, `pmc` and `pmm` have the indices of these two devices of a real system above 1FFFh.
+MODEL says at which indices the objects are: `150` has 150 that follow each other, `full150` the same and the
+objects of all services, `gappy150` has every second index free, `pmc` and `pmm` have the indices of these two devices of a real system above 1FFFh.
 The same model always gives the same bytes.
 Of every ten objects six are scalars (u16, i16, u32, i32, u8, i32), two are records of four members,
 one is an array u16[8] and one a string of 16 characters: 2.6 entries and 6.7 bytes per object,
@@ -80,12 +80,12 @@ def indices_of(model: str) -> list[int]:
         (device,) = (device for device in devices if device["key"] == model)
         indices = (int(one["index"], 16) for one in device["objects"])
         return [index for index in indices if index >= FIRST_AREA]
-    if not (number := re.fullmatch(r"(gappy)?(\d+)", model)):
+    if not (number := re.fullmatch(r"(gappy|full)?(\d+)", model)):
         raise ValueError(f"there is no model {model}")
-    count, most = int(number[2]), MOST_OBJECTS // 2 if number[1] else MOST_OBJECTS
+    count, most = int(number[2]), MOST_OBJECTS // 2 if number[1] == "gappy" else MOST_OBJECTS
     if not LEAST_OBJECTS <= count <= most:
         raise ValueError(f"the model has {LEAST_OBJECTS} to {most} objects, not {count}")
-    if number[1]:
+    if number[1] == "gappy":
         return [FIRST_AREA + 2 * number for number in range(count)]
     return [index_of(number) for number in range(count)]
 
@@ -150,7 +150,7 @@ title: Scaled model of {len(indices)} objects
 vendor: {{name: Example Works, number: 0x{VENDOR:X}}}
 uses: [cia301]
 devices:
-  controller: {{name: Scaled model, product: 0x{PRODUCT:X}, product-revision: 0x{REVISION:X}, bit-rates: [125, 500], features: [heartbeat producer]}}
+  controller: {{name: Scaled model, product: 0x{PRODUCT:X}, product-revision: 0x{REVISION:X}, bit-rates: [125, 500], {services(model)}}}
 objects:
 """
     for one in objects_at(indices):
@@ -172,6 +172,14 @@ pdos:
     receive: {{1: {{map: [{places(receive(indices))}]}}}}
     transmit: {{1: {{no-rtr: yes, map: [{places(transmit(indices))}]}}}}
 """
+
+
+def services(model: str) -> str:
+    if not model.startswith("full"):
+        return "features: [heartbeat producer]"
+    features = ["heartbeat producer", "heartbeat consumer", "node guarding", "emergency", "emergency inhibit time"]
+    features += ["error history", "error behaviour", "sync producer", "sync counter", "sync window", "emergency consumer"]
+    return f"lss: yes, features: [{', '.join(features)}]"
 
 
 def od_entry(entry: Entry) -> str:
@@ -328,10 +336,15 @@ def eds_entry(entry: Entry) -> str:
 
 def rs(model: str, indices: list[int]) -> Iterator[str]:
     """A value of the bench's `Model`."""
-    setpoints = ", ".join(f"0x{index:04X}" for index in indices[::BLOCK])
     mapped = [index for index, _, _ in (*transmit(indices), receive(indices)[1])]
-    mapped = ", ".join(f"0x{index:04X}" for index in mapped)
-    yield f'Model {{ name: "{model}", setpoints: &[{setpoints}], position: 0x{indices[5]:04X}, mapped: [{mapped}] }}\n'
+    lists = {"setpoints": 0, "records": 6, "arrays": 8}
+    fields = [f"{name}: &[{numbers(indices[first::BLOCK])}]" for name, first in lists.items()]
+    fields += [f"position: 0x{indices[5]:04X}", f"mapped: [{numbers(mapped)}]"]
+    yield f'Model {{ name: "{model}", {", ".join(fields)} }}\n'
+
+
+def numbers(indices: list[int]) -> str:
+    return ", ".join(f"0x{index:04X}" for index in indices)
 
 
 def main() -> int:

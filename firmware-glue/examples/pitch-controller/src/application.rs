@@ -203,7 +203,7 @@ impl Application<Pmc> for Drive<'_> {
 
 impl PdoHandler<Pmc> for Drive<'_> {}
 
-/// This device has no LSS; the main loop shows the node no request of it.
+/// This device has no LSS, so that nothing of it is called.
 impl LssHandler for Drive<'_> {}
 
 impl NodeHandler<Pmc> for Drive<'_> {

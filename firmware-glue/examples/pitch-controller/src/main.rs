@@ -37,8 +37,6 @@ use uart::Uart;
 
 /// A board reads it from its switches.
 const NODE_ID: u8 = 5;
-/// The requests of LSS masters (CiA 305), which this device does not have.
-const LSS_REQUEST: u16 = 0x7E5;
 
 #[entry]
 fn main() -> ! {
@@ -108,7 +106,7 @@ fn run<C: Can>(mut can: C, mut clock: Clock, mut drive: Drive<'_>) {
         }
         match can.receive() {
             Ok(message) => {
-                let frame = Frame::of_driver(&message).filter(|frame| frame.id().get() != LSS_REQUEST);
+                let frame = Frame::of_driver(&message);
                 waiting = frame.and_then(|frame| node.handle(&frame, &mut od, &mut drive, now));
             }
             // A frame or the next millisecond ends the wait.

@@ -30,11 +30,11 @@ use crate::access::dictionary::Dictionary;
 use crate::access::parameters::Parameters;
 use crate::bus::clock::{Instant, earlier};
 use crate::bus::frame::Frame;
-use crate::pdo;
 use crate::pdo::engine::receive::{Length, Receive};
 use crate::pdo::engine::settings::Settings;
 use crate::pdo::engine::transmit::Transmit;
 use crate::pdo::engine::window::Moment;
+use crate::pdo::mapping::Mapping;
 use crate::table::mapping::{RECEIVE, TRANSMIT};
 use crate::table::{Pdo, Table};
 
@@ -42,7 +42,10 @@ use crate::table::{Pdo, Table};
 #[derive(Debug, Clone)]
 pub struct PdoEngine<const T: usize, const R: usize> {
     transmit: [Transmit; T],
+    /// The mappings of the TPDOs, and those of the RPDOs.
+    transmitted: [Mapping; T],
     receive: [Receive; R],
+    received: [Mapping; R],
     state: Running,
     sync: SyncLength,
     /// When the last SYNC came.
@@ -89,21 +92,32 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
     /// # Errors
     /// [`TooManyPdos`]: none of them is left out in silence.
     pub fn new(table: &Table<'_>) -> Result<Self, TooManyPdos> {
+        Self::check(table)?;
+        Ok(Self::resting())
+    }
+
+    /// Whether there is room for the PDOs of a table.
+    pub(crate) fn check(table: &Table<'_>) -> Result<(), TooManyPdos> {
         let (transmit, receive) = (transmit_pdos(table).len(), receive_pdos(table).len());
-        if transmit > T || receive > R {
-            return Err(TooManyPdos { transmit, receive });
-        }
-        Ok(Self {
+        if transmit > T || receive > R { Err(TooManyPdos { transmit, receive }) } else { Ok(()) }
+    }
+
+    /// An engine that rests.
+    pub(crate) const fn resting() -> Self {
+        Self {
             transmit: [Transmit::NEW; T],
+            transmitted: [Mapping::NEW; T],
             receive: [Receive::NEW; R],
+            received: [Mapping::NEW; R],
             state: Running::No,
             sync: SyncLength::Right,
             synced: None,
             first: 0,
-        })
+        }
     }
 
     /// The node becomes operational: PDOs begin.
+    #[inline(never)]
     pub fn start<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, now: Instant) {
         for (slot, pdo) in self.transmit.iter_mut().zip(transmit_pdos(dictionary.table())) {
             slot.start(Settings::of(dictionary, pdo), now);
@@ -114,6 +128,7 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
     }
 
     /// The node leaves operational: nothing is sent, received or watched, and what waits is dropped.
+    #[inline(never)]
     pub fn stop(&mut self) {
         self.transmit = [Transmit::NEW; T];
         self.receive = [Receive::NEW; R];
@@ -124,26 +139,27 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
     /// An event of a TPDO, 1 to 512: one of type 254 or 255 is sent as soon as its inhibit time allows, one of type 0 with
     /// the next SYNC; others have no events.
     pub fn trigger<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, number: u16, now: Instant) {
-        self.trigger_if(dictionary, |candidate| candidate == number, now);
+        self.trigger_if(dictionary, |pdo, _| self::number(pdo) == number, now);
     }
 
     /// An entry has changed: an event of every TPDO that carries it or a view of it.
     pub fn trigger_entry<'t, D: Dictionary<'t>>(&mut self, dictionary: &D, entry: D::Entry, now: Instant) {
         let row = dictionary.table().holder(dictionary.row(entry));
-        self.trigger_if(dictionary, |number| pdo::carries(dictionary, number, row), now);
+        self.trigger_if(dictionary, |pdo, mapping| mapping.carries(dictionary, pdo, row), now);
     }
 
     fn trigger_if<'t, D: Dictionary<'t>>(
         &mut self,
         dictionary: &D,
-        is_it: impl Fn(u16) -> bool,
+        is_it: impl Fn(&Pdo<'_>, &mut Mapping) -> bool,
         now: Instant,
     ) {
         if self.state == Running::No {
             return;
         }
-        for (slot, pdo) in self.transmit.iter_mut().zip(transmit_pdos(dictionary.table())) {
-            if is_it(number(pdo)) {
+        let pdos = transmit_pdos(dictionary.table());
+        for ((slot, mapping), pdo) in self.transmit.iter_mut().zip(&mut self.transmitted).zip(pdos) {
+            if is_it(pdo, mapping) {
                 slot.trigger(Settings::of(dictionary, pdo), now);
             }
         }
@@ -181,8 +197,10 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
             };
         }
         let moment = Moment::after(self.synced, dictionary, now);
-        for (slot, pdo) in self.receive.iter_mut().zip(receive_pdos(table)) {
-            slot.handle(Settings::of(dictionary, pdo), number(pdo), frame, dictionary, application, moment);
+        for ((slot, mapping), pdo) in self.receive.iter_mut().zip(&mut self.received).zip(receive_pdos(table))
+        {
+            let contents = Contents { pdo, mapping };
+            slot.handle(Settings::of(dictionary, pdo), contents, frame, dictionary, application, moment);
         }
     }
 
@@ -199,11 +217,16 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
         }
         (self.sync, self.synced) = (SyncLength::Right, Some(now));
         let table = dictionary.table();
-        for (slot, pdo) in self.transmit.iter_mut().zip(transmit_pdos(table)) {
-            slot.sync(Settings::of(dictionary, pdo), number(pdo), counter, dictionary, application, now);
+        for ((slot, mapping), pdo) in
+            self.transmit.iter_mut().zip(&mut self.transmitted).zip(transmit_pdos(table))
+        {
+            let contents = Contents { pdo, mapping };
+            slot.sync(Settings::of(dictionary, pdo), contents, counter, dictionary, application, now);
         }
-        for (slot, pdo) in self.receive.iter_mut().zip(receive_pdos(table)) {
-            slot.sync(Settings::of(dictionary, pdo), number(pdo), dictionary, application);
+        for ((slot, mapping), pdo) in self.receive.iter_mut().zip(&mut self.received).zip(receive_pdos(table))
+        {
+            let contents = Contents { pdo, mapping };
+            slot.sync(Settings::of(dictionary, pdo), contents, dictionary, application);
         }
     }
 
@@ -228,9 +251,13 @@ impl<const T: usize, const R: usize> PdoEngine<T, R> {
         let pdos = transmit_pdos(table);
         let first = self.first.min(pdos.len());
         for at in (first..pdos.len()).chain(0..first) {
-            let (Some(slot), Some(pdo)) = (self.transmit.get_mut(at), pdos.get(at)) else { continue };
-            let settings = Settings::of(dictionary, pdo);
-            if let Some(frame) = slot.poll(settings, number(pdo), dictionary, application, moment) {
+            let (Some(slot), Some(mapping), Some(pdo)) =
+                (self.transmit.get_mut(at), self.transmitted.get_mut(at), pdos.get(at))
+            else {
+                continue;
+            };
+            let (settings, contents) = (Settings::of(dictionary, pdo), Contents { pdo, mapping });
+            if let Some(frame) = slot.poll(settings, contents, dictionary, application, moment) {
                 self.first = at + 1;
                 return Some(frame);
             }
@@ -288,6 +315,18 @@ fn transmit_pdos<'t>(table: &Table<'t>) -> &'t [Pdo<'t>] {
 fn receive_pdos<'t>(table: &Table<'t>) -> &'t [Pdo<'t>] {
     let pdos = table.parts().pdos;
     pdos.get(..pdos.partition_point(|pdo| pdo.index < TRANSMIT)).unwrap_or_default()
+}
+
+/// A PDO and its mapping.
+struct Contents<'a> {
+    pdo: &'a Pdo<'a>,
+    mapping: &'a mut Mapping,
+}
+
+impl Contents<'_> {
+    fn number(&self) -> u16 {
+        number(self.pdo)
+    }
 }
 
 /// 1 to 512.

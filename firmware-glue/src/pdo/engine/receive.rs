@@ -8,7 +8,8 @@ use crate::bus::frame::Frame;
 use crate::pdo::engine::event::{PdoEvent, PdoHandler};
 use crate::pdo::engine::settings::{Settings, Transmission};
 use crate::pdo::engine::window::{Moment, Window};
-use crate::pdo::{self, PdoError, Received};
+use crate::pdo::engine::{Contents, number};
+use crate::pdo::{PdoError, Received};
 
 /// What is known of an RPDO beyond its parameters.
 #[derive(Debug, Clone, Copy)]
@@ -64,7 +65,7 @@ impl Receive {
     pub(super) fn handle<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
         settings: Option<Settings>,
-        number: u16,
+        contents: Contents<'_>,
         frame: &Frame,
         dictionary: &mut D,
         application: &mut A,
@@ -74,8 +75,9 @@ impl Receive {
         if settings.id != frame.id() {
             return;
         }
-        let length = match pdo::received_length(dictionary, number) {
-            Ok(expected) => Length::of(data.len(), expected),
+        let number = contents.number();
+        let length = match contents.mapping.length(dictionary, contents.pdo) {
+            Ok(expected) => Length::of(data.len(), expected.into()),
             Err(error) => return application.pdo_event(dictionary, PdoEvent::NotReceived { number, error }),
         };
         self.judge(length, number, dictionary, application);
@@ -87,7 +89,7 @@ impl Receive {
                 return application.pdo_event(dictionary, PdoEvent::CameLate { number });
             }
             Transmission::SyncAfterEvent | Transmission::EverySync(_) => self.waiting = Some(*frame),
-            Transmission::Event => self.take(number, data, dictionary, application),
+            Transmission::Event => self.take(contents, data, dictionary, application),
             // Not for RPDOs: the dictionary refuses them, but a table may begin with one.
             Transmission::RemoteAfterSync | Transmission::Remote | Transmission::Reserved => return,
         }
@@ -101,13 +103,13 @@ impl Receive {
     pub(super) fn sync<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
         settings: Option<Settings>,
-        number: u16,
+        contents: Contents<'_>,
         dictionary: &mut D,
         application: &mut A,
     ) {
         self.update(settings);
         if let Some(data) = self.waiting.take().as_ref().and_then(Frame::bytes) {
-            self.take(number, data, dictionary, application);
+            self.take(contents, data, dictionary, application);
         }
     }
 
@@ -130,14 +132,16 @@ impl Receive {
     }
 
     /// The values take effect.
+    #[inline(never)]
     fn take<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
-        number: u16,
+        Contents { pdo, mapping }: Contents<'_>,
         data: &[u8],
         dictionary: &mut D,
         application: &mut A,
     ) {
-        match pdo::unpack(dictionary, number, data, application) {
+        let number = number(pdo);
+        match mapping.unpack(pdo, data, dictionary, application) {
             Ok(Received { refused, .. }) => {
                 application.pdo_event(dictionary, PdoEvent::Received { number, refused });
             }
@@ -169,7 +173,7 @@ impl Receive {
 
     /// When it has to have come.
     pub(super) fn deadline(&self, settings: Option<Settings>) -> Option<Instant> {
-        let timer = settings?.timer;
+        let timer = settings?.timer();
         match self.watch {
             Watch::Came(at) if !timer.is_zero() => Some(at + timer),
             Watch::Awaited | Watch::Came(_) | Watch::Overdue => None,

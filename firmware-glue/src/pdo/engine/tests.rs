@@ -10,6 +10,7 @@ use crate::access::application::Application;
 use crate::access::parameters::set;
 use crate::access::test_table::{TestDictionary, TestValue, dictionary, value};
 use crate::bus::frame::CanId;
+use crate::pdo::PdoError;
 use crate::table::entry::EntryId;
 
 /// What an application hears.
@@ -378,7 +379,7 @@ fn parameters_count_as_soon_as_they_are_written() {
     set(&mut bench.dictionary, 0x1A00, 0, 0);
     bench.sync(5);
     assert_eq!(bench.sent(5), []);
-    assert_eq!(bench.events(), [PdoEvent::NotSent { number: 1, error: pdo::PdoError::NotMapped }]);
+    assert_eq!(bench.events(), [PdoEvent::NotSent { number: 1, error: PdoError::NotMapped }]);
 }
 
 #[test]

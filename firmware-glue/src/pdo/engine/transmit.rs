@@ -7,6 +7,7 @@ use crate::pdo;
 use crate::pdo::engine::event::{PdoEvent, PdoHandler};
 use crate::pdo::engine::settings::{RemoteFrames, Settings, Transmission};
 use crate::pdo::engine::window::{Moment, Window};
+use crate::pdo::engine::{Contents, number};
 
 /// What is known of a TPDO beyond its parameters.
 #[derive(Debug, Clone, Copy)]
@@ -99,7 +100,7 @@ impl Transmit {
     pub(super) fn sync<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
         settings: Option<Settings>,
-        number: u16,
+        contents: Contents<'_>,
         counter: Option<u8>,
         dictionary: &mut D,
         application: &mut A,
@@ -108,13 +109,13 @@ impl Transmit {
         let Some(settings) = self.update(settings, now) else { return };
         match settings.transmission {
             Transmission::SyncAfterEvent if self.wanted == Wanted::No => {}
-            Transmission::SyncAfterEvent => self.sample_now(number, dictionary, application),
+            Transmission::SyncAfterEvent => self.sample_now(contents, dictionary, application),
             Transmission::EverySync(every) => {
                 if self.counts(settings.start, every, counter) || self.wanted == Wanted::Yes {
-                    self.sample_now(number, dictionary, application);
+                    self.sample_now(contents, dictionary, application);
                 }
             }
-            Transmission::RemoteAfterSync => self.sample = pack(number, dictionary, application),
+            Transmission::RemoteAfterSync => self.sample = pack(contents, dictionary, application),
             Transmission::Remote | Transmission::Event | Transmission::Reserved => {}
         }
     }
@@ -133,19 +134,19 @@ impl Transmit {
 
     fn sample_now<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
-        number: u16,
+        contents: Contents<'_>,
         dictionary: &mut D,
         application: &mut A,
     ) {
         self.wanted = Wanted::No;
-        self.ready = pack(number, dictionary, application);
+        self.ready = pack(contents, dictionary, application);
     }
 
     /// The frame, if it is to be sent now.
     pub(super) fn poll<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
         &mut self,
         settings: Option<Settings>,
-        number: u16,
+        contents: Contents<'_>,
         dictionary: &mut D,
         application: &mut A,
         Moment { now, window }: Moment,
@@ -154,7 +155,7 @@ impl Transmit {
         let is_synchronous =
             matches!(transmission, Transmission::SyncAfterEvent | Transmission::EverySync(_));
         if is_synchronous && window == Window::Closed && self.ready.take().is_some() {
-            application.pdo_event(dictionary, PdoEvent::NotSentInTime { number });
+            application.pdo_event(dictionary, PdoEvent::NotSentInTime { number: contents.number() });
         }
         if self.deadline(settings).is_none_or(|due| now < due) {
             return None;
@@ -165,7 +166,7 @@ impl Transmit {
             return Frame::data(id, &data);
         }
         self.wanted = Wanted::No;
-        Frame::data(id, &pack(number, dictionary, application)?)
+        Frame::data(id, &pack(contents, dictionary, application)?)
     }
 
     /// When it is to be sent, unless something happens before; at once where parameters have changed.
@@ -180,11 +181,11 @@ impl Transmit {
         match (settings.transmission, self.wanted) {
             (Transmission::Remote, Wanted::Yes) => Some(Instant::ZERO),
             (Transmission::Event, wanted) => {
-                let allowed = self.sent.map_or(Instant::ZERO, |sent| sent + settings.inhibit);
-                let timed = self.sent.unwrap_or(self.since) + settings.timer;
+                let allowed = self.sent.map_or(Instant::ZERO, |sent| sent + settings.inhibit());
+                let timed = self.sent.unwrap_or(self.since) + settings.timer();
                 match wanted {
                     Wanted::Yes => Some(allowed),
-                    Wanted::No => (!settings.timer.is_zero()).then(|| timed.max(allowed)),
+                    Wanted::No => (!settings.timer().is_zero()).then(|| timed.max(allowed)),
                 }
             }
             (
@@ -199,13 +200,18 @@ impl Transmit {
     }
 }
 
-/// The values of now, by the present mapping.
+/// The values of now, by the present mapping. One function for all that call it.
+#[inline(never)]
 fn pack<'t, D: Dictionary<'t>, A: PdoHandler<D>>(
-    number: u16,
+    Contents { pdo, mapping }: Contents<'_>,
     dictionary: &mut D,
     application: &mut A,
 ) -> Option<pdo::Frame> {
-    pdo::pack(dictionary, number, application)
-        .map_err(|error| application.pdo_event(dictionary, PdoEvent::NotSent { number, error }))
-        .ok()
+    match mapping.pack(pdo, dictionary, application) {
+        Ok(frame) => Some(frame),
+        Err(error) => {
+            application.pdo_event(dictionary, PdoEvent::NotSent { number: number(pdo), error });
+            None
+        }
+    }
 }

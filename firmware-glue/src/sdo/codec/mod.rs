@@ -59,6 +59,12 @@ impl Expedited {
         self.bytes.get(..usize::from(self.length.unwrap_or(4))).unwrap_or(&self.bytes)
     }
 
+    /// The four bytes in which the value is.
+    #[inline]
+    pub(crate) const fn four(self) -> [u8; 4] {
+        self.bytes
+    }
+
     /// Of bits 0 to 3 of a command, and the four bytes after the entry.
     #[inline]
     const fn decode(command: u8, bytes: [u8; 4]) -> Self {

@@ -5,11 +5,10 @@ use super::upload::Upload;
 use super::{Phase, SdoServer, Transfer, find_to_upload};
 use crate::abort::AbortCode;
 use crate::access::application::Application;
-use crate::access::dictionary::Dictionary;
+use crate::access::dictionary::{Dictionary, value};
 use crate::sdo::block::{Receiver, Sender};
 use crate::sdo::codec::{Answer, BlockSegment, Received, Request};
 use crate::table::entry::EntryId;
-use crate::table::stored::value_of;
 
 impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
     /// Whether there is a segment of a block to be sent.
@@ -123,8 +122,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         let sender = Sender::new(block_size)?;
         self.transfer = Transfer::None;
         let found = find_to_upload(id, dictionary, application)?;
-        let is_short = value_of(dictionary.table(), dictionary.image(), found)
-            .is_ok_and(|value| value.len() <= usize::from(threshold));
+        let is_short = value(dictionary, found).is_ok_and(|value| value.len() <= usize::from(threshold));
         if threshold > 0 && is_short {
             return Ok(self.begin_longer_upload(id, found, dictionary, application));
         }

@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 
 use crate::abort::AbortCode;
 use crate::access::application::Application;
-use crate::access::dictionary::{Dictionary, check_lock, writable, write_row};
+use crate::access::dictionary::{Dictionary, check_lock, put_free, writable, write_row};
 use crate::table::entry::EntryId;
 use crate::table::{Attributes, Place};
 
@@ -105,6 +105,17 @@ pub(super) fn write_expedited<'t, D: Dictionary<'t>, A: Application<D>>(
 ) -> Result<(), AbortCode> {
     let EntryId { index, sub } = id;
     let found = writable(dictionary.table(), index, sub)?;
+    // Almost every value that is written is a number without rules.
+    if dictionary.table().is_free(found) {
+        let (row, place, four) = (found.row, found.offset(), value.four());
+        let [a, b, ..] = four;
+        match (value.length(), found.shared.size) {
+            (Some(4), 4) => return put_free(dictionary, row, place, four, application),
+            (Some(2), 2) => return put_free(dictionary, row, place, [a, b], application),
+            (Some(1), 1) => return put_free(dictionary, row, place, [a], application),
+            _ => {}
+        }
+    }
     let data = match value.length() {
         Some(_) => value.bytes(),
         None => unsized_value(found.shared, &value)?,

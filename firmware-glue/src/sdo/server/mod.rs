@@ -7,7 +7,7 @@ mod upload;
 
 use crate::abort::AbortCode;
 use crate::access::application::Application;
-use crate::access::dictionary::{Dictionary, readable, refresh};
+use crate::access::dictionary::{Dictionary, readable, refresh, value};
 use crate::bus::clock::{Duration, Instant};
 use crate::bus::frame::Frame;
 use crate::sdo::Channel;
@@ -16,7 +16,6 @@ use crate::sdo::block::{Receiver, Sender};
 use crate::sdo::codec::{Aborted, Answer, Expedited, Request, Segment, downloaded, uploaded};
 use crate::table::Found;
 use crate::table::entry::EntryId;
-use crate::table::stored::value_of;
 use download::{Download, write_expedited};
 use upload::{Upload, find_short, short_value};
 
@@ -204,7 +203,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         self.heard = now;
         // Almost every request reads a number. That goes from its place into the frame, after one look into the table.
         let Some(id) = Request::read_entry(bytes) else {
-            return self.handle_other(frame, dictionary, application);
+            return self.handle_other(bytes, dictionary, application);
         };
         if !self.is_taking_blocks()
             && let Some(found) = find_short(dictionary.table(), id)
@@ -214,18 +213,22 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
             let value = short_value(dictionary.table(), dictionary.image(), found)?;
             return Some(Frame::full(self.channel.answer, uploaded(id, value)));
         }
-        self.handle_longer(frame, dictionary, application)
+        self.handle_longer(bytes, dictionary, application)
     }
 
     /// The same, beyond short values that are read: those that are written.
     #[inline(never)]
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "the frame stays where it is, and of it is loaded what counts"
+    )]
     fn handle_other<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
-        frame: &Frame,
+        bytes: &[u8; 8],
         dictionary: &mut D,
         application: &mut A,
     ) -> Option<Frame> {
-        if let Some((id, value)) = Request::written_entry(frame.all_eight()?)
+        if let Some((id, value)) = Request::written_entry(bytes)
             && !self.is_taking_blocks()
         {
             self.transfer = Transfer::None;
@@ -235,18 +238,19 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
             };
             return Some(Frame::full(self.channel.answer, answer));
         }
-        self.handle_longer(frame, dictionary, application)
+        self.handle_longer(bytes, dictionary, application)
     }
 
     /// The same, for transfers of several frames.
     #[inline(never)]
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "as above")]
     fn handle_longer<'t, D: Dictionary<'t>, A: Application<D>>(
         &mut self,
-        frame: &Frame,
+        bytes: &[u8; 8],
         dictionary: &mut D,
         application: &mut A,
     ) -> Option<Frame> {
-        let answer = self.take(*frame.all_eight()?, dictionary, application)?;
+        let answer = self.take(*bytes, dictionary, application)?;
         Some(Frame::full(self.channel.answer, answer))
     }
 
@@ -373,7 +377,7 @@ impl<B: AsRef<[u8]> + AsMut<[u8]>> SdoServer<B> {
         dictionary: &mut D,
         application: &mut A,
     ) -> [u8; 8] {
-        if let Ok(value) = value_of(dictionary.table(), dictionary.image(), found)
+        if let Ok(value) = value(dictionary, found)
             && let Some(value) = Expedited::new(&value)
         {
             return uploaded(id, value);

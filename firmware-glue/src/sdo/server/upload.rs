@@ -2,11 +2,10 @@
 
 use crate::abort::AbortCode;
 use crate::access::application::Application;
-use crate::access::dictionary::Dictionary;
+use crate::access::dictionary::{Dictionary, value};
 use crate::sdo::codec::{Expedited, Piece};
 use crate::sdo::piece::gather;
 use crate::table::entry::EntryId;
-use crate::table::stored::value_of;
 use crate::table::{Flags, Found, Place, Table};
 
 /// Data that are read piece by piece.
@@ -37,7 +36,7 @@ impl Upload {
             domain_piece(id, 0, dictionary, application)?;
             return Ok(Self { id, from: From::Application });
         }
-        let value = value_of(dictionary.table(), dictionary.image(), found)?;
+        let value = value(dictionary, found)?;
         let length = value.len();
         buffer.get_mut(..length).ok_or(AbortCode::OUT_OF_MEMORY)?.copy_from_slice(&value);
         Ok(Self { id, from: From::Buffer { length } })

@@ -146,7 +146,8 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         groups: &[Storage],
         loaded: &mut Loaded,
     ) -> Result<(), Unreadable> {
-        let (mut reader, _) = Reader::<CHUNK>::open(&mut self.flash, slot)?;
+        let mut reader = Reader::<CHUNK>::new(slot);
+        reader.open(&mut self.flash)?;
         let table = dictionary.table();
         while let Part::Section(section) = reader.part(&mut self.flash)? {
             let Section { storage, length, .. } = section;
@@ -248,9 +249,14 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         let newest = self.newest(None);
         let slot = newest.map_or(first, |newest| self.other(newest.slot));
         let number = newest.map_or(0, |newest| newest.number.wrapping_add(1));
-        let mut writer = Writer::<CHUNK>::begin(&mut self.flash, slot, number)?;
+        let mut writer = Writer::<CHUNK>::new(slot);
+        writer.begin(&mut self.flash, number)?;
         if let Some(newest) = newest {
-            self.keep(&mut writer, newest.slot, dictionary, but)?;
+            let table = dictionary.table();
+            self.keep(&mut writer, newest.slot, |section| {
+                let region = table.region(section.storage);
+                !but.contains(&section.storage) && region.is_some_and(|region| is_of(section, region))
+            })?;
         }
         for storage in STORED.into_iter().filter(|storage| with.contains(storage)) {
             if let Some(region) = dictionary.table().region(storage) {
@@ -268,19 +274,17 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
         }
     }
 
-    /// Copies the sections of groups that are not written anew, as far as they are of the present layout.
-    fn keep<'t, D: Dictionary<'t>>(
+    /// Copies the sections of an intact record that are to be kept.
+    fn keep(
         &mut self,
         writer: &mut Writer<CHUNK>,
         from: Slot,
-        dictionary: &D,
-        but: &[Storage],
+        is_kept: impl Fn(Section) -> bool,
     ) -> Result<(), StoreError<F::Error>> {
-        let (mut reader, _) = Reader::<CHUNK>::open(&mut self.flash, from).map_err(not_verified)?;
+        let mut reader = Reader::<CHUNK>::new(from);
+        reader.open(&mut self.flash).map_err(not_verified)?;
         while let Part::Section(section) = reader.part(&mut self.flash).map_err(not_verified)? {
-            let region = dictionary.table().region(section.storage);
-            let is_kept =
-                !but.contains(&section.storage) && region.is_some_and(|region| is_of(section, region));
+            let is_kept = is_kept(section);
             if is_kept {
                 writer.section(&mut self.flash, section)?;
             }
@@ -297,16 +301,9 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
 
     /// Copies an intact record.
     fn copy(&mut self, from: Slot, to: Slot, number: u32) -> Result<(), StoreError<F::Error>> {
-        let mut writer = Writer::<CHUNK>::begin(&mut self.flash, to, number)?;
-        let (mut reader, _) = Reader::<CHUNK>::open(&mut self.flash, from).map_err(not_verified)?;
-        while let Part::Section(section) = reader.part(&mut self.flash).map_err(not_verified)? {
-            writer.section(&mut self.flash, section)?;
-            for _ in 0..section.length {
-                let byte = reader.byte(&mut self.flash).map_err(not_verified)?;
-                writer.bytes(&mut self.flash, &[byte])?;
-            }
-        }
-        reader.is_intact(&mut self.flash).map_err(not_verified)?;
+        let mut writer = Writer::<CHUNK>::new(to);
+        writer.begin(&mut self.flash, number)?;
+        self.keep(&mut writer, from, |_| true)?;
         writer.finish(&mut self.flash)?;
         self.verify(to)
     }
@@ -317,7 +314,8 @@ impl<F: NorFlash, const CHUNK: usize> ParameterStore<F, CHUNK> {
 
     /// The number of a record, if it is intact.
     fn check(&mut self, slot: Slot) -> Result<u32, Unreadable> {
-        let (mut reader, number) = Reader::<CHUNK>::open(&mut self.flash, slot)?;
+        let mut reader = Reader::<CHUNK>::new(slot);
+        let number = reader.open(&mut self.flash)?;
         while let Part::Section(section) = reader.part(&mut self.flash)? {
             reader.skip(&mut self.flash, section.length)?;
         }

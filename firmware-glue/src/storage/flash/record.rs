@@ -69,17 +69,21 @@ pub(super) struct Reader<const CHUNK: usize> {
 }
 
 impl<const CHUNK: usize> Reader<CHUNK> {
-    /// Begins a record; its number.
-    pub(super) fn open<F: NorFlash>(flash: &mut F, slot: Slot) -> Result<(Self, u32), Unreadable> {
-        let mut reader = Self { slot, next: slot.start, chunk: [0; CHUNK], given: CHUNK, crc: Crc::new() };
-        if reader.array(flash)? != FORMAT {
+    /// A reader of a slot.
+    pub(super) const fn new(slot: Slot) -> Self {
+        Self { slot, next: slot.start, chunk: [0; CHUNK], given: CHUNK, crc: Crc::new() }
+    }
+
+    /// Begins the record; its number.
+    pub(super) fn open<F: NorFlash>(&mut self, flash: &mut F) -> Result<u32, Unreadable> {
+        if self.number(flash)? != u32::from_le_bytes(FORMAT) {
             return Err(Unreadable::NoRecord);
         }
-        let number = u32::from_le_bytes(reader.array(flash)?);
-        Ok((reader, number))
+        self.number(flash)
     }
 
     /// The next byte.
+    #[inline(never)]
     pub(super) fn byte<F: NorFlash>(&mut self, flash: &mut F) -> Result<u8, Unreadable> {
         if self.given >= CHUNK {
             let after = u32::try_from(CHUNK).ok().and_then(|size| self.next.checked_add(size));
@@ -94,17 +98,18 @@ impl<const CHUNK: usize> Reader<CHUNK> {
         Ok(byte)
     }
 
-    fn array<F: NorFlash, const N: usize>(&mut self, flash: &mut F) -> Result<[u8; N], Unreadable> {
-        let mut bytes = [0; N];
+    /// The next four bytes.
+    fn number<F: NorFlash>(&mut self, flash: &mut F) -> Result<u32, Unreadable> {
+        let mut bytes = [0; 4];
         for byte in &mut bytes {
             *byte = self.byte(flash)?;
         }
-        Ok(bytes)
+        Ok(u32::from_le_bytes(bytes))
     }
 
     /// The head of the next section, or the end. Values have to be read, or skipped, before the next.
     pub(super) fn part<F: NorFlash>(&mut self, flash: &mut F) -> Result<Part, Unreadable> {
-        let [group, node, zeros @ ..] = self.array::<F, 4>(flash)?;
+        let [group, node, zeros @ ..] = self.number(flash)?.to_le_bytes();
         if zeros != [0; 2] {
             return Err(Unreadable::NoRecord);
         }
@@ -118,8 +123,8 @@ impl<const CHUNK: usize> Reader<CHUNK> {
         }
         let storage =
             STORED.into_iter().find(|storage| code(*storage) == group).ok_or(Unreadable::NoRecord)?;
-        let layout = u32::from_le_bytes(self.array(flash)?);
-        let length = u32::from_le_bytes(self.array(flash)?);
+        let layout = self.number(flash)?;
+        let length = self.number(flash)?;
         Ok(Part::Section(Section { storage, node, layout, length }))
     }
 
@@ -131,7 +136,7 @@ impl<const CHUNK: usize> Reader<CHUNK> {
     /// Reads the checksum after the end: whether every byte before it is as it was written.
     pub(super) fn is_intact<F: NorFlash>(&mut self, flash: &mut F) -> Result<(), Unreadable> {
         let expected = self.crc.value();
-        let stored = u32::from_le_bytes(self.array(flash)?);
+        let stored = self.number(flash)?;
         if stored == expected { Ok(()) } else { Err(Unreadable::NoRecord) }
     }
 }
@@ -147,20 +152,24 @@ pub(super) struct Writer<const CHUNK: usize> {
 }
 
 impl<const CHUNK: usize> Writer<CHUNK> {
+    /// A writer into a slot.
+    pub(super) const fn new(slot: Slot) -> Self {
+        Self { slot, next: slot.start, chunk: [0xFF; CHUNK], filled: 0, crc: Crc::new() }
+    }
+
     /// Erases the slot and begins a record.
     pub(super) fn begin<F: NorFlash>(
+        &mut self,
         flash: &mut F,
-        slot: Slot,
         number: u32,
-    ) -> Result<Self, StoreError<F::Error>> {
-        flash.erase(slot.start, slot.end).map_err(StoreError::Flash)?;
-        let mut writer = Self { slot, next: slot.start, chunk: [0xFF; CHUNK], filled: 0, crc: Crc::new() };
-        writer.bytes(flash, &FORMAT)?;
-        writer.bytes(flash, &number.to_le_bytes())?;
-        Ok(writer)
+    ) -> Result<(), StoreError<F::Error>> {
+        flash.erase(self.slot.start, self.slot.end).map_err(StoreError::Flash)?;
+        self.bytes(flash, &FORMAT)?;
+        self.bytes(flash, &number.to_le_bytes())
     }
 
     /// Writes bytes, as soon as they fill a chunk.
+    #[inline(never)]
     pub(super) fn bytes<F: NorFlash>(
         &mut self,
         flash: &mut F,
@@ -191,7 +200,7 @@ impl<const CHUNK: usize> Writer<CHUNK> {
     }
 
     /// Ends the record: now it counts.
-    pub(super) fn finish<F: NorFlash>(mut self, flash: &mut F) -> Result<(), StoreError<F::Error>> {
+    pub(super) fn finish<F: NorFlash>(&mut self, flash: &mut F) -> Result<(), StoreError<F::Error>> {
         self.bytes(flash, &[END, 0, 0, 0])?;
         let checksum = self.crc.value();
         self.bytes(flash, &checksum.to_le_bytes())?;

@@ -454,7 +454,8 @@ fn numbers_of_records_count_on_beyond_their_end() {
     let mut store = store(Small::new(256));
     for (slot, number) in [(store.slots[0], u32::MAX), (store.slots[1], 0)] {
         change(&mut device, number);
-        let mut writer = Writer::<CHUNK>::begin(&mut store.flash, slot, number).expect("erased");
+        let mut writer = Writer::<CHUNK>::new(slot);
+        writer.begin(&mut store.flash, number).expect("erased");
         let region = *device.table().region(Storage::Application).expect("a region");
         writer.section(&mut store.flash, section_of(&region, None)).expect("written");
         writer.bytes(&mut store.flash, device.stored(Storage::Application)).expect("written");

@@ -132,6 +132,10 @@ impl<'t> Dictionary<'t> for LiveDictionary<'t> {
         self.values.image_mut()
     }
 
+    fn is_lss_slave(&self) -> bool {
+        self.lss().is_some()
+    }
+
     fn condition(&self, number: u16) -> bool {
         let condition = self.device.conditions().get(usize::from(number));
         condition.is_none_or(|condition| condition.holds(&|row| self.number(row)))

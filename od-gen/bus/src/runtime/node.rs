@@ -5,7 +5,6 @@ use std::fmt;
 use firmware_glue::clock::{Instant, earlier};
 use firmware_glue::emcy::{Emergency, Raised};
 use firmware_glue::frame::Frame;
-use firmware_glue::lss;
 use firmware_glue::nmt::{Service, State};
 use firmware_glue::node::{NoRoom, Room, UpTo};
 use firmware_glue::sdo::{Channel, SdoServer};
@@ -70,7 +69,11 @@ impl<'t> VirtualNode<'t> {
         let table = dictionary.table();
         let sdo_buffer = vec![0; table.largest_value()];
         let room = Room { tpdos: UpTo, rpdos: UpTo, errors: UpTo, watched: UpTo, sdo_buffer };
-        let node = Box::new(Node::new(table, Some(id), room).map_err(NoNode::Room)?);
+        // With room for all PDOs that there can be it is large, and no combinator moves it once more.
+        let node = match Node::new(table, Some(id), room) {
+            Ok(node) => Box::new(node),
+            Err(room) => return Err(NoNode::Room(room)),
+        };
         Ok(Self { node, host: Host::new(&dictionary), dictionary, further: Vec::new() })
     }
 
@@ -91,10 +94,6 @@ impl<'t> VirtualNode<'t> {
 
     /// Takes a frame, and says what answers it. What else there is to say comes with [`poll`](Self::poll).
     pub fn take(&mut self, frame: &Frame, now: u64) -> Option<Frame> {
-        // A device without LSS does not hear the master.
-        if frame.id().get() == lss::REQUEST && self.dictionary.lss().is_none() {
-            return None;
-        }
         let (dictionary, host) = (&mut self.dictionary, &mut self.host);
         let mut answer = self.node.handle(frame, dictionary, host, Instant::from_micros(now));
         if answer.is_none() && self.node.serves(Service::Sdo) {

@@ -78,7 +78,7 @@ impl Plan<'_> {
             quote!(match number { #(#conditions)* _ => true, })
         };
         let constraints = self.constraints();
-        let entry_of_row = self.entry_of_row();
+        let (entry_of_row, lss) = (self.entry_of_row(), self.device.info.lss);
         quote! {
             impl firmware::Entries for #name {
                 type Entry = Entry;
@@ -114,6 +114,11 @@ impl Plan<'_> {
                 #[allow(unused_parens, unused_comparisons)]
                 fn condition(&self, number: u16) -> bool {
                     #body
+                }
+
+                #[inline]
+                fn is_lss_slave(&self) -> bool {
+                    #lss
                 }
             }
 

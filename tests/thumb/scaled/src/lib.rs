@@ -11,6 +11,11 @@ pub mod scaled150 {
     include!(concat!(env!("OUT_DIR"), "/scaled150/controller.rs"));
 }
 
+/// 150 objects, and those of all services.
+pub mod full150 {
+    include!(concat!(env!("OUT_DIR"), "/full150/controller.rs"));
+}
+
 /// 2,000 objects.
 pub mod scaled2000 {
     include!(concat!(env!("OUT_DIR"), "/scaled2000/controller.rs"));

@@ -1,7 +1,8 @@
 //! The same operations on the same objects, on each contender's dictionary, of each enabled model.
 //!
 //! One iteration does an operation for 1024 keys, so that neither the loop nor the clock counts;
-//! `run.py` divides. Keys are drawn from the scalars of type u16, the same ones for all contenders.
+//! `run.py` divides. Keys are drawn from the scalars of type u16, the same ones for all contenders; from
+//! records and arrays where an operation is about them.
 //! What is measured is throughput: the processor may begin an operation before the last has ended.
 
 use std::hint::black_box;
@@ -20,13 +21,16 @@ mod zencan;
 #[path = "../shared/model.rs"]
 mod keys;
 
-use keys::{KEYS, Model, keys};
+use keys::{KEYS, Model, keys as keys_of};
 
 /// The same in all models.
 mod model {
     /// Default of the first setpoint.
     pub const SETPOINT: u16 = 51;
     pub const PDO_SIZE: usize = 6;
+    /// The sub-index of a record that is a u16, and the elements of an array.
+    pub const GAIN: u8 = 1;
+    pub const ELEMENTS: u8 = 8;
     /// An index without an object.
     pub const FREE: u16 = 0x9FFF;
 }
@@ -74,6 +78,11 @@ fn assert_works(dictionary: &mut impl Dictionary, model: &Model, keys: &[u16]) {
     }
     assert!(!dictionary.find(model::FREE, 0) && !dictionary.find(first, 1));
     assert!(!dictionary.write(model.position, 0, [0; 2]), "a read-only entry was written");
+    let (record, array) = (model.records[0], model.arrays[0]);
+    assert!(dictionary.write(record, model::GAIN, [7, 0]));
+    assert_eq!(dictionary.read(record, model::GAIN), Some([7, 0]));
+    assert_eq!(dictionary.read(array, model::ELEMENTS), Some([0, 0]));
+    assert!(!dictionary.write(array, model::ELEMENTS, [0; 2]), "a read-only element was written");
     if dictionary.unpack(&[0x34, 0x12, 1, 2, 3, 4]).is_some() {
         assert_eq!(dictionary.read(mapped, 0), Some([0x34, 0x12]));
     }
@@ -88,7 +97,7 @@ fn assert_works(dictionary: &mut impl Dictionary, model: &Model, keys: &[u16]) {
 
 /// All operations of one contender on one model.
 fn measure<D: Dictionary>(criterion: &mut Criterion, model: &Model, dictionary: &mut D) {
-    let keys = keys(model.setpoints);
+    let keys = keys_of(model.setpoints);
     assert_works(dictionary, model, &keys);
     let mut bench = |operation: &str, run: &mut dyn FnMut()| {
         group(criterion, operation)
@@ -102,6 +111,23 @@ fn measure<D: Dictionary>(criterion: &mut Criterion, model: &Model, dictionary: 
     bench("write u16", &mut || {
         for &index in &keys {
             black_box(dictionary.write(black_box(index), black_box(0), black_box(index).to_le_bytes()));
+        }
+    });
+    let (records, arrays) = (keys_of(model.records), keys_of(model.arrays));
+    bench("read record", &mut || {
+        for &index in &records {
+            black_box(dictionary.read(black_box(index), black_box(model::GAIN)));
+        }
+    });
+    bench("write record", &mut || {
+        for &index in &records {
+            let value = black_box(index).to_le_bytes();
+            black_box(dictionary.write(black_box(index), black_box(model::GAIN), value));
+        }
+    });
+    bench("read array element", &mut || {
+        for (number, &index) in (0..model::ELEMENTS).cycle().zip(&arrays) {
+            black_box(dictionary.read(black_box(index), black_box(number + 1)));
         }
     });
     bench("find", &mut || {
@@ -155,7 +181,7 @@ fn group<'a>(criterion: &'a mut Criterion, operation: &str) -> BenchmarkGroup<'a
 /// What the loop itself costs.
 fn floor(criterion: &mut Criterion) {
     let setpoints: Vec<u16> = (0x2000..0x2100).collect();
-    let keys = keys(&setpoints);
+    let keys = keys_of(&setpoints);
     group(criterion, "empty loop").bench_function("floor/0", |bencher| {
         bencher.iter(|| {
             for &index in &keys {

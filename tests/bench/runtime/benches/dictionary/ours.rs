@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use firmware_glue::Dictionary as _;
-use firmware_glue::pdo::{pack, unpack};
+use firmware_glue::pdo::{Rpdo, Tpdo};
 
 const NODE: u8 = 5;
 
@@ -14,10 +14,13 @@ macro_rules! models {
             use super::*;
             use bench_ours::$model::{Controller, pdos::Tpdo1};
 
-            pub struct Ours(Controller);
+            /// The PDOs are kept, as the engine of a node keeps them.
+            pub struct Ours(Controller, Tpdo, Rpdo);
 
             pub fn dictionary() -> Ours {
-                Ours(Controller::new(NODE))
+                let od = Controller::new(NODE);
+                let (tpdo, rpdo) = (Tpdo::new(od.table(), 1), Rpdo::new(od.table(), 1));
+                Ours(od, tpdo.expect("there is TPDO 1"), rpdo.expect("there is RPDO 1"))
             }
 
             impl crate::Dictionary for Ours {
@@ -41,7 +44,7 @@ macro_rules! models {
                 }
 
                 fn pack(&mut self, frame: &mut [u8; 8]) -> Option<usize> {
-                    let packed = pack(&mut self.0, 1, &mut ()).ok()?;
+                    let packed = self.1.pack(&mut self.0, &mut ()).ok()?;
                     frame[..packed.len()].copy_from_slice(&packed);
                     Some(packed.len())
                 }
@@ -51,7 +54,7 @@ macro_rules! models {
                 }
 
                 fn unpack(&mut self, frame: &[u8]) -> Option<()> {
-                    unpack(&mut self.0, 1, frame, &mut ()).ok().map(drop)
+                    self.2.unpack(&mut self.0, frame, &mut ()).ok().map(drop)
                 }
             }
         }

@@ -7,7 +7,7 @@ use firmware_glue::clock::Instant;
 use firmware_glue::emcy::Emergency;
 use firmware_glue::frame::Frame;
 use firmware_glue::node::{Room, UpTo};
-use firmware_glue::{Dictionary as _, Node, NodeId};
+use firmware_glue::{Dictionary as _, Late, Node, NodeId};
 use panic_halt as _;
 
 use super::{DRIVE, Device, Drive};
@@ -20,17 +20,24 @@ static ERROR: Option<u16> = None;
 #[entry]
 fn main() -> ! {
     // `entry` hands them out as `&'static mut`.
-    static mut DICTIONARY: Option<Device> = None;
-    static mut NODE: Option<Whole> = None;
+    static mut DICTIONARY: Late<Device> = Late::Empty;
+    static mut NODE: Late<Whole> = Late::Empty;
     static mut APPLICATION: Drive = DRIVE;
     // At run time: a static with values has them in flash a second time.
-    let dictionary = DICTIONARY.insert(Device::new(1));
+    DICTIONARY.make(Device::new(1));
     let id = NodeId::new(black_box(5));
     let sdo_buffer = [0; Device::LARGEST_VALUE];
     let room = Room { tpdos: UpTo, rpdos: UpTo, errors: UpTo, watched: UpTo, sdo_buffer };
-    *NODE = Node::new(dictionary.table(), id, room).ok();
+    if let Some(node) = DICTIONARY.made().and_then(|dictionary| Node::new(dictionary.table(), id, room).ok())
+    {
+        NODE.make(node);
+    }
     loop {
-        let (Some(node), now) = (NODE.as_mut(), black_box(Instant::ZERO)) else { continue };
+        // By reference, as a firmware passes them on: else the address of each field is a constant of its own.
+        let (Some(node), Some(dictionary)) = (black_box(NODE.made()), black_box(DICTIONARY.made())) else {
+            continue;
+        };
+        let now = black_box(Instant::ZERO);
         if let Some(frame) = black_box(&FRAME) {
             black_box(node.handle(frame, dictionary, APPLICATION, now));
         }

@@ -1,4 +1,4 @@
-//! A whole node with the scaled model of 150 objects: SDO server, PDOs, NMT, heartbeats sent and watched, guarding, emergencies, LSS.
+//! A whole node with the scaled model of 150 objects, and the services that it has objects for: SDO server, PDOs, NMT, heartbeat.
 #![no_std]
 #![no_main]
 

@@ -1,11 +1,11 @@
-//! A whole node with the PMC and everything that there is: parameters in a flash, LSS that keeps what it sets, errors by their code.
+//! A whole node with the PMC: SDO server, PDOs, NMT, heartbeat, emergencies with their history, parameters in a flash.
 #![no_std]
 #![no_main]
 
 use core::hint::black_box;
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind, ReadNorFlash};
-use firmware_glue::lss::{BitRate, LssHandler, MaybeNode, Reply};
+use firmware_glue::lss::LssHandler;
 use firmware_glue::node::{NodeHandler, Reset};
 use firmware_glue::pdo::engine::PdoHandler;
 use firmware_glue::storage::{ALL, Command, ParameterStore};
@@ -68,17 +68,7 @@ impl Application<Device> for Drive {
 
 impl PdoHandler<Device> for Drive {}
 
-impl LssHandler for Drive {
-    fn has_bit_rate(&self, rate: BitRate) -> bool {
-        black_box(rate);
-        black_box(true)
-    }
-
-    fn store(&mut self, node: MaybeNode, rate: Option<BitRate>) -> Reply {
-        black_box((node, rate));
-        Reply::Done
-    }
-}
+impl LssHandler for Drive {}
 
 impl NodeHandler<Device> for Drive {
     fn restart(&mut self, od: &mut Device, node: NodeId, reset: Reset) {

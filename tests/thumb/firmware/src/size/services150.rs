@@ -11,7 +11,7 @@ use firmware_glue::frame::Frame;
 use firmware_glue::nmt::{Command, ErrorControl, Nmt, Service, State, Transition};
 use firmware_glue::pdo::engine::PdoEngine;
 use firmware_glue::sdo::{Channel, SdoServer};
-use firmware_glue::{Dictionary, NodeId};
+use firmware_glue::{Dictionary, Late, NodeId};
 use panic_halt as _;
 use thumb_scaled::scaled150::Controller;
 
@@ -72,14 +72,21 @@ impl Services {
 #[entry]
 fn main() -> ! {
     // `entry` hands them out as `&'static mut`.
-    static mut DICTIONARY: Option<Controller> = None;
-    static mut SERVICES: Option<Services> = None;
+    static mut DICTIONARY: Late<Controller> = Late::Empty;
+    static mut SERVICES: Late<Services> = Late::Empty;
     static FRAME: Option<Frame> = None;
     // At run time: a static with values has them in flash a second time.
-    let dictionary = DICTIONARY.insert(Controller::new(1));
-    *SERVICES = NodeId::new(black_box(5)).and_then(|id| Services::new(dictionary, id));
+    DICTIONARY.make(Controller::new(1));
+    let id = NodeId::new(black_box(5));
+    if let (Some(id), Some(dictionary)) = (id, DICTIONARY.made())
+        && let Some(services) = Services::new(dictionary, id)
+    {
+        SERVICES.make(services);
+    }
     loop {
-        let (Some(services), now) = (SERVICES.as_mut(), black_box(Instant::ZERO)) else { continue };
+        let made = (black_box(SERVICES.made()), black_box(DICTIONARY.made()));
+        let (Some(services), Some(dictionary)) = made else { continue };
+        let now = black_box(Instant::ZERO);
         if let Some(frame) = black_box(&FRAME) {
             black_box(services.handle(frame, dictionary, now));
         }

@@ -4,8 +4,6 @@
 
 use core::hint::black_box;
 
-use cortex_m::peripheral::SYST;
-use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::{debug, hprintln};
 use firmware_glue::Dictionary;
@@ -15,27 +13,18 @@ use firmware_glue::sdo::{Channel, SdoServer};
 use od_generated::pmc::Pmc;
 use panic_semihosting as _;
 
-/// Nanoseconds, and so instructions, in a tick of the board's 25 MHz.
-const PER_TICK: u32 = 40;
-const TIMES: u32 = 1000;
+#[path = "../shared/instructions.rs"]
+mod instructions;
+
+use instructions::{count, timer};
+
 /// A read may not take as many: fewer than the best stack that was measured (149, of a server that refuses).
 const READ: u32 = 150;
 /// Neither may what has more to do.
 const REFUSED: u32 = 230;
-const WRITE: u32 = 330;
+const WRITE: u32 = 200;
 
 type Server = SdoServer<[u8; Pmc::LARGEST_VALUE]>;
-
-/// Instructions of one of many calls, with those of the loop.
-fn count(timer: &mut SYST, mut call: impl FnMut()) -> u32 {
-    timer.clear_current();
-    let before = SYST::get_current();
-    for _ in 0..TIMES {
-        call();
-    }
-    let ticks = before.wrapping_sub(SYST::get_current()) & 0x00FF_FFFF;
-    ticks * PER_TICK / TIMES
-}
 
 /// What a firmware does with a frame: a function of its own, so that what is called from here is not woven into the loop.
 #[inline(never)]
@@ -46,11 +35,7 @@ fn turn(server: &mut Server, frame: &Frame, dictionary: &mut Pmc) -> Option<Fram
 #[entry]
 fn main() -> ! {
     static mut DICTIONARY: Pmc = Pmc::new(1);
-    let mut timer = cortex_m::Peripherals::take().expect("the first time").SYST;
-    timer.set_clock_source(SystClkSource::Core);
-    timer.set_reload(0x00FF_FFFF);
-    timer.clear_current();
-    timer.enable_counter();
+    let mut timer = timer();
     let mut server: Server =
         SdoServer::new(Channel { request: CanId::MAX, answer: CanId::MAX }, [0; Pmc::LARGEST_VALUE]);
     // The loop alone: a frame goes in and nothing is done with it.
