@@ -269,7 +269,10 @@ impl Findings<'_, '_> {
             let name = format!("{} {}", pdo.direction.pdo(), pdo.number);
             let span =
                 self.device.objects.get(&Index(pdo.mapping_index())).map_or(pdo.span, |object| object.span);
-            if pdo.map.is_empty() {
+            // So many entries are mapped as sub-index 0 says: none where a file has no default for it.
+            let number = EntryId { index: Index(pdo.mapping_index()), sub: SubIndex(0) };
+            let number = self.device.entry(number).and_then(|entry| entry.default.as_ref()?.integer());
+            if pdo.map.is_empty() || number.unwrap_or_default() == 0 {
                 empty.push((span, name));
             } else if let Some(reason) = self.refusal(pdo) {
                 refused.push((span, format!("{name} ({reason})")));
