@@ -8,7 +8,7 @@ use od_spec::model::{
 use od_spec::source::Span;
 
 use super::cell::Cell;
-use super::groups::is_behind;
+use super::groups::has_groups;
 use super::node_id;
 use super::objects::{StackObject, groups_of};
 use super::srdos::Srdos;
@@ -300,7 +300,7 @@ impl Findings<'_, '_> {
         let device = self.device;
         let empty: Vec<_> = device
             .entries()
-            .filter(|(id, ..)| is_behind(device, &groups, *id) == Some(false))
+            .filter(|(id, ..)| has_groups(device, &groups, *id) == Some(false))
             .map(|(id, _, entry)| (entry.span, format!("{id} ({})", entry.name)))
             .collect();
         self.report_all(
