@@ -1,12 +1,15 @@
-/* An SDO server, expedited and segmented. The CAN driver calls it with the data of each frame 600h + node-ID, and sends the answer as 580h + node-ID.
- * In place of NULL, an application says whether the device is unlocked, and hears of new values. */
+/*
+ * An SDO server, expedited and segmented. The CAN driver calls it with the data of each frame
+ * 600h + node-ID, and sends the answer as 580h + node-ID. In place of NULL, an application says
+ * whether the device is unlocked, and hears of new values.
+ */
 #include "valve_od.h"
 
 static valve_od_t od;
 static enum { IDLE, UPLOAD, DOWNLOAD } transfer = IDLE;
 static uint16_t index;
 static uint8_t sub, toggle;
-static size_t length, announced, at; /* of the value, of what the client announced, and where the transfer is */
+static size_t length, announced, at; /* of the value, by the client, of the transfer */
 static uint8_t buffer[VALVE_OD_LARGEST_VALUE];
 
 static void copy(uint8_t *to, const uint8_t *from, size_t count) {

@@ -250,7 +250,7 @@ int main(void) {
     EXPECT(OD_addNodeId(7U), ODR_OK);
     EXPECT(OD_RAM.x200A_identifier, 0x123);
 
-    /* Storage: what 1010h.2 and .3 store; nothing is behind 1010h.4. */
+    /* Storage: what 1010h.2 and .3 store; 1010h.4 stores nothing. */
     EXPECT(sizeof(storage) / sizeof(storage[0]), 3);
     EXPECT((storage[0].addr == &OD_PERSIST_COMM) && (storage[0].subIndexOD == 2U) && (storage[0].attr == 5U), 1);
     EXPECT((storage[1].addr == &OD_PERSIST_APP) && (storage[1].len == sizeof(OD_PERSIST_APP)), 1);

@@ -1,7 +1,7 @@
 //! `CO_driver_custom.h`: what the stack is compiled with for this dictionary, each setting with its reason. The stack includes the file where
 //! `CO_DRIVER_CUSTOM` is defined. A project that sets one of these itself keeps its setting, unless the stack would not start with it, or a rule of
 //! the dictionary would not be kept. Several dictionaries of one program share the settings of the stack: the file of each then checks them for all that it
-//! needs, whoever made them.
+//! needs.
 
 use od_spec::model::{Dictionary, Direction, EntryId, Index};
 

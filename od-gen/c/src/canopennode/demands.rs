@@ -8,7 +8,7 @@ use od_spec::model::{
 use od_spec::source::Span;
 
 use super::cell::Cell;
-use super::groups::is_behind;
+use super::groups::has_groups;
 use super::node_id;
 use super::objects::{StackObject, groups_of};
 use super::srdos::Srdos;
@@ -269,7 +269,10 @@ impl Findings<'_, '_> {
             let name = format!("{} {}", pdo.direction.pdo(), pdo.number);
             let span =
                 self.device.objects.get(&Index(pdo.mapping_index())).map_or(pdo.span, |object| object.span);
-            if pdo.map.is_empty() {
+            // So many entries are mapped as sub-index 0 says: none where a file has no default for it.
+            let number = EntryId { index: Index(pdo.mapping_index()), sub: SubIndex(0) };
+            let number = self.device.entry(number).and_then(|entry| entry.default.as_ref()?.integer());
+            if pdo.map.is_empty() || number.unwrap_or_default() == 0 {
                 empty.push((span, name));
             } else if let Some(reason) = self.refusal(pdo) {
                 refused.push((span, format!("{name} ({reason})")));
@@ -297,7 +300,7 @@ impl Findings<'_, '_> {
         let device = self.device;
         let empty: Vec<_> = device
             .entries()
-            .filter(|(id, ..)| is_behind(device, &groups, *id) == Some(false))
+            .filter(|(id, ..)| has_groups(device, &groups, *id) == Some(false))
             .map(|(id, _, entry)| (entry.span, format!("{id} ({})", entry.name)))
             .collect();
         self.report_all(

@@ -74,7 +74,7 @@ impl<'a> Group<'a> {
 }
 
 /// Whether a command of 1010h or 1011h, by its sub-index, is about groups of a device; `None` for what is no command.
-pub(super) fn is_behind(device: &Dictionary, groups: &[Group<'_>], command: EntryId) -> Option<bool> {
+pub(super) fn has_groups(device: &Dictionary, groups: &[Group<'_>], command: EntryId) -> Option<bool> {
     let flag = match command.index.0 {
         0x1010 => COMMAND,
         0x1011 => RESTORE,

@@ -5,7 +5,7 @@ use od_spec::model::{DataType, Dictionary};
 use super::super::prefix::Prefix;
 use super::super::text::Text;
 use super::cell::Cell;
-use super::groups::{Group, is_behind};
+use super::groups::{Group, has_groups};
 use super::initial::initialiser;
 use super::objects::{Memory, Shape, Slot, StackObject, groups_of};
 
@@ -39,7 +39,7 @@ impl Values<'_, '_> {
         let (_, cell) = slot.variable().filter(|(of, _)| *of == self.group)?;
         let is_command = slot.entry.default.is_none()
             && slot.entry.data_type == DataType::Unsigned32
-            && is_behind(self.device, self.groups, slot.id) == Some(true);
+            && has_groups(self.device, self.groups, slot.id) == Some(true);
         Some(if is_command { "0x00000001UL".to_owned() } else { initialiser(slot.id, slot.entry, cell) })
     }
 }

@@ -199,6 +199,9 @@ fn what_the_stack_has_to_be_set_up_for_is_reported() {
         &eds(&elsewhere),
         "TPDO 1 (1017h may not be mapped in this direction): CANopenNode refuses the mapping",
     );
+    let uncounted =
+        elsewhere.replacen("DataType=5\nAccessType=rw\nDefaultValue=1\n", "DataType=5\nAccessType=rw\n", 1);
+    has(&eds(&uncounted), "TPDO 1: valid without a mapping, and CANopenNode starts with an error");
     let wide = elsewhere.replace("0x10170010", "0x20000020");
     let narrow = var("2000", "6", "rw", "0\nPDOMapping=1");
     has(
