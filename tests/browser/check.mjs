@@ -433,10 +433,7 @@ const targetsOf = (table) => [...(table.ladder?.rungs ?? []), ...table.grids.fla
 const isLinked = async (page, name, key, wanted) => {
   const addressOf = ({ anchor, page: home }) => (home && home !== key && context.devices.some((device) => device.key === home) ? `${home}.html#${anchor}` : `#${anchor}`);
   const found = await page.evaluate((ids) => ids.map((id) => {
-    const box = document.getElementById(id);
-    // The pictures of a PDO follow its heading.
-    const boxes = box.matches("h3") ? [box.nextElementSibling, box.nextElementSibling.nextElementSibling].filter((one) => one?.matches(".scroll, .narrow")) : [box];
-    return boxes.flatMap((one) => [...one.querySelectorAll("svg a, .narrow a, li a")].map((link) => link.getAttribute("href")));
+    return [...document.getElementById(id).querySelectorAll("svg a, .narrow a, li a")].map((link) => link.getAttribute("href"));
   }), wanted.map(({ id }) => id));
   for (const [at, { id, targets }] of wanted.entries()) same([...found[at]].sort(), targets.map(addressOf).sort(), `${name}: links in the pictures of #${id}`);
   for (const width of [390, 800, 1400]) {
