@@ -87,7 +87,7 @@ const inLanguage = (number) => String(number).replace(".", say.point);
 const numberIn = (text) => (say.point === "," && text?.includes(".") ? NaN : Number(text?.replace(say.point, ".")));
 // A text in the language of the page, or else in the default language of the specification.
 const fallback = dump.languages[0];
-const inLanguage = (text) => clean(text[language] ?? text[fallback] ?? "").replaceAll("->", "→");
+const ofDump = (text) => clean(text[language] ?? text[fallback] ?? "").replaceAll("->", "→");
 
 const accessCell = (entry) => (entry.locked ? (entry.access === "wo" ? "(w)" : "r(w)") : entry.access);
 const mapCell = { none: "N", receive: "Y (R)", transmit: "Y (T)", both: "Y (RT)" };
@@ -113,7 +113,7 @@ for (const device of dump.devices) {
       same(cell(say.type), entry.type, `${place} type`);
       same(cell(say.access), accessCell(entry), `${place} access`);
       same(cell(say.map), mapCell[entry.pdo], `${place} mapping`);
-      check(clean(cell(say.about)).startsWith(inLanguage(entry.about)), `${place} description`);
+      check(clean(cell(say.about)).startsWith(ofDump(entry.about)), `${place} description`);
       const unit = dump.units.find((one) => one.name === entry.unit);
       const [upper, lower] = unit?.scale ?? [1, 1];
       const space = unit?.symbol === "°" ? "" : " ";
