@@ -87,7 +87,7 @@ const inLanguage = (number) => String(number).replace(".", say.point);
 const numberIn = (text) => (say.point === "," && text?.includes(".") ? NaN : Number(text?.replace(say.point, ".")));
 // A text in the language of the page, or else in the default language of the specification.
 const fallback = dump.languages[0];
-const inLanguage = (text) => clean(text[language] ?? text[fallback] ?? "").replaceAll("->", "→");
+const ofDump = (text) => clean(text[language] ?? text[fallback] ?? "").replaceAll("->", "→");
 
 const accessCell = (entry) => (entry.locked ? (entry.access === "wo" ? "(w)" : "r(w)") : entry.access);
 const mapCell = { none: "N", receive: "Y (R)", transmit: "Y (T)", both: "Y (RT)" };
@@ -113,7 +113,7 @@ for (const device of dump.devices) {
       same(cell(say.type), entry.type, `${place} type`);
       same(cell(say.access), accessCell(entry), `${place} access`);
       same(cell(say.map), mapCell[entry.pdo], `${place} mapping`);
-      check(clean(cell(say.about)).startsWith(inLanguage(entry.about)), `${place} description`);
+      check(clean(cell(say.about)).startsWith(ofDump(entry.about)), `${place} description`);
       const unit = dump.units.find((one) => one.name === entry.unit);
       const [upper, lower] = unit?.scale ?? [1, 1];
       const space = unit?.symbol === "°" ? "" : " ";
@@ -433,10 +433,7 @@ const targetsOf = (table) => [...(table.ladder?.rungs ?? []), ...table.grids.fla
 const isLinked = async (page, name, key, wanted) => {
   const addressOf = ({ anchor, page: home }) => (home && home !== key && context.devices.some((device) => device.key === home) ? `${home}.html#${anchor}` : `#${anchor}`);
   const found = await page.evaluate((ids) => ids.map((id) => {
-    const box = document.getElementById(id);
-    // The pictures of a PDO follow its heading.
-    const boxes = box.matches("h3") ? [box.nextElementSibling, box.nextElementSibling.nextElementSibling].filter((one) => one?.matches(".scroll, .narrow")) : [box];
-    return boxes.flatMap((one) => [...one.querySelectorAll("svg a, .narrow a, li a")].map((link) => link.getAttribute("href")));
+    return [...document.getElementById(id).querySelectorAll("svg a, .narrow a, li a")].map((link) => link.getAttribute("href"));
   }), wanted.map(({ id }) => id));
   for (const [at, { id, targets }] of wanted.entries()) same([...found[at]].sort(), targets.map(addressOf).sort(), `${name}: links in the pictures of #${id}`);
   for (const width of [390, 800, 1400]) {

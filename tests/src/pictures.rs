@@ -18,9 +18,9 @@ pub(crate) fn page(html: &str) -> Result<String, Failure> {
     let style = between("<style>", "</style>")?.replace("<style>", "").replace("</style>", "");
     let parts = [
         between("<article class=\"object\" id=\"2000\"", "</article>")?,
-        between("<h3 id=\"rpdo-1\">", "</svg>")?,
+        between("<section class=\"part pdo\" id=\"rpdo-1\">", "</svg>")?,
         // What scrolls the picture of the PDO.
-        "</div>",
+        "</div></section>",
     ];
     // Here they are XML, where an element inside another one has its namespace.
     let body = parts.join("\n").replace("<svg ", "<svg xmlns=\"http://www.w3.org/2000/svg\" ");

@@ -40,6 +40,16 @@ pub struct Edition<'a> {
     pub options: Options,
 }
 
+impl Edition<'_> {
+    /// The folder of the document: that of all its languages, if it has others.
+    fn document(&self) -> &str {
+        match self.folder.rsplit_once('/') {
+            Some((document, _)) if !self.options.siblings.languages.is_empty() => document,
+            _ => &self.folder,
+        }
+    }
+}
+
 /// What was read for a specification; its own file is the first.
 pub fn origin(sources: &SourceMap) -> Origin {
     let texts = sources.files().flat_map(|(_, file)| file.text().bytes());
@@ -95,9 +105,9 @@ pub fn with_start_page(
     templates: &[Templates],
 ) -> Result<Vec<Artifact>, TemplateError> {
     let (mut list, mut documents, mut first) = (Vec::new(), Vec::new(), None);
-    for of_system in editions.chunk_by(|one, next| std::ptr::eq(one.system, next.system)) {
+    for of_document in editions.chunk_by(|one, next| one.document() == next.document()) {
         let mut document = Document { editions: Vec::new() };
-        for Edition { system, folder, options } in of_system {
+        for Edition { system, folder, options } in of_document {
             let (artifacts, context) = print(system, folder, options, templates)?;
             list.extend(artifacts);
             document.editions.extend(context.as_ref().map(|context| portal::Edition::of(folder, context)));
