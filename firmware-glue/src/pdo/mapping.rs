@@ -362,8 +362,9 @@ fn watched<'t, D: Dictionary<'t>>(dictionary: &D, pdo: &Pdo<'_>, count: u8) -> O
     };
     let rows = pdo.mapping.saturating_add(1)..;
     let first = place(rows.start, 4)?;
-    for (row, at) in rows.take(count.into()).zip((first..).step_by(4)) {
-        if place(row, 4)? != (if first == NONE { NONE } else { at }) {
+    for (row, at) in rows.take(count.into()).zip(0..) {
+        let expected = if first == NONE { NONE } else { first + 4 * at };
+        if place(row, 4)? != expected {
             return None;
         }
     }
