@@ -360,10 +360,11 @@ fn watched<'t, D: Dictionary<'t>>(dictionary: &D, pdo: &Pdo<'_>, count: u8) -> O
             Place::Image | Place::Alias | Place::Application => None,
         }
     };
-    let rows = pdo.mapping.saturating_add(1)..;
-    let first = place(rows.start, 4)?;
-    for (row, at) in rows.take(count.into()).zip((first..).step_by(4)) {
-        if place(row, 4)? != (if first == NONE { NONE } else { at }) {
+    let parameter = |at: u16| place(pdo.mapping.saturating_add(1 + at), 4);
+    let first = parameter(0)?;
+    for at in 0..u16::from(count) {
+        let expected = if first == NONE { NONE } else { first + 4 * at };
+        if parameter(at)? != expected {
             return None;
         }
     }

@@ -54,9 +54,11 @@ impl<'t> Found<'t> {
         usize::from(self.shared.page) << 16 | usize::from(self.place)
     }
 
-    /// Its offset, if that is below the number that is [`NONE`](crate::table::NONE).
+    /// Its offset, if that and those of the bytes of a few entries after it are numbers of 16 bits other than
+    /// [`NONE`](crate::table::NONE).
     pub(crate) fn near(self) -> Option<u16> {
-        u16::try_from(self.offset()).ok().filter(|place| *place != NONE)
+        const ROOM: u16 = 0xFF;
+        u16::try_from(self.offset()).ok().filter(|place| *place < NONE - ROOM)
     }
 }
 
