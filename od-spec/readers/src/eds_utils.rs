@@ -2,15 +2,21 @@
 
 use std::collections::BTreeMap;
 
+use super::lines::{Line, Signs};
 use super::python::int;
-use super::refusal::{Cause, Place, Refusals, Row, rows};
+use super::refusal::{Cause, Place, Refusals};
 use od_spec::diag::readers::Reader;
 use od_spec::source::FileId;
 
-/// Lines between two empty ones: what the reader takes for a section.
-struct Block<'t> {
-    header: Row<'t>,
-    keys: BTreeMap<&'t str, (&'t str, Place)>,
+/// A value, and the line that it is in.
+type Value<'t> = (&'t str, Place);
+
+/// What the reader looks at in the section of an object or sub-index, each with its last value.
+#[derive(Default)]
+struct Entry<'t> {
+    object_type: Option<Value<'t>>,
+    data_type: Option<Value<'t>>,
+    default: Option<Value<'t>>,
 }
 
 /// What the reader keeps of an object.
@@ -21,79 +27,167 @@ enum Object<'t> {
 }
 
 /// Sub-indices with their default value.
-type Subs<'t> = BTreeMap<u32, (&'t str, Place)>;
+type Subs<'t> = BTreeMap<u32, Value<'t>>;
 
-pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
-    let mut refusals = Refusals::new(Reader::EdsUtils, file);
-    let mut objects: BTreeMap<u32, Object<'_>> = BTreeMap::new();
-    // The object of the section before: its storage location is looked at before a sub-index's own object is.
-    let mut before = None;
-    for block in blocks(text, &mut refusals) {
-        let name = block.header.text;
-        let Some(name) = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')) else { continue };
+/// A section, by its name.
+enum Kind {
+    Object(u32),
+    Sub(u32, u32),
+    /// A list of objects.
+    List,
+    /// Of which the values are not looked at.
+    Other,
+}
+
+impl Kind {
+    fn of(header: &str) -> Self {
+        let Some(name) = header.strip_prefix('[').and_then(|name| name.strip_suffix(']')) else {
+            return Kind::Other;
+        };
         if let Some(index) = hexadecimal(name).filter(|_| name.len() == 4) {
-            if let Some(object) = object(&block, &mut refusals)
-                && objects.insert(index, object).is_some()
-            {
-                refusals.add(block.header.place(), Cause::Text, "a section that is written twice");
-            }
-            before = Some(index);
+            Kind::Object(index)
         } else if let Some((index, sub)) = sub_index(name) {
-            add_sub(&mut objects, before.replace(index), (index, sub), &block, &mut refusals);
+            Kind::Sub(index, sub)
         } else if matches!(name, "MandatoryObjects" | "OptionalObjects" | "ManufacturerObjects") {
-            list(&block, &mut refusals);
-        }
-    }
-    mappings(&objects, &mut refusals);
-    refusals
-}
-
-/// The sections of a text, of which the reader knows no more than that an empty line is between them.
-fn blocks<'t>(text: &'t str, refusals: &mut Refusals) -> Vec<Block<'t>> {
-    // A text that ends with several empty lines has a section of one empty line for the reader.
-    let ends_empty = text.replace("\r\n", "\n").replace('\r', "\n");
-    let trailing = ends_empty.len() - ends_empty.trim_end_matches('\n').len();
-    if trailing >= 3 && trailing % 2 == 1 {
-        let end = Place { start: text.len(), end: text.len() };
-        refusals.add(end, Cause::Text, "empty lines at the end of the file");
-    }
-    let (mut blocks, mut begun) = (Vec::new(), Vec::new());
-    for row in rows(text) {
-        // Of three empty lines the third belongs to the next section.
-        if row.text.is_empty() && !begun.is_empty() {
-            blocks.extend(block(&begun, refusals));
-            begun.clear();
+            Kind::List
         } else {
-            begun.push(row);
+            Kind::Other
         }
     }
-    blocks.extend(block(&begun, refusals));
-    blocks
 }
 
-fn block<'t>(rows: &[Row<'t>], refusals: &mut Refusals) -> Option<Block<'t>> {
-    let first = rows.iter().find(|row| !row.text.is_empty())?;
-    let Some(at) = rows.iter().position(|row| row.text.starts_with('[')) else {
-        refusals.add(first.place(), Cause::Text, "lines between two empty lines without a section name");
-        return None;
-    };
-    let mut keys = BTreeMap::new();
-    for row in rows[at + 1..].iter().filter(|row| !row.text.is_empty()) {
-        match row.text.split_once('=') {
-            Some((key, value)) if !value.contains('=') => {
-                keys.insert(key, (value, row.place()));
-            }
-            Some(_) => refusals.add(row.place(), Cause::Text, "a line with a second `=`"),
-            None if row.text.starts_with('[') => {
-                refusals.add(row.place(), Cause::Text, "a section name without an empty line above");
-            }
-            None if row.text.starts_with([';', '#']) => {
-                refusals.add(row.place(), Cause::Text, "a comment among the keys of a section");
-            }
-            None => refusals.add(row.place(), Cause::Text, "a line without `=`"),
+pub(super) fn refusals(text: &str, lines: &[Line<'_>], file: FileId) -> Refusals {
+    let mut model =
+        Model { objects: BTreeMap::new(), before: None, refusals: Refusals::new(Reader::EdsUtils, file) };
+    model.empty_lines_at_the_end(lines, text.len());
+    let mut begun = 0;
+    for (at, line) in lines.iter().enumerate() {
+        // Of three empty lines the third belongs to the next section.
+        if line.text.is_empty() && begun < at {
+            model.block(&lines[begun..at]);
+            begun = at + 1;
         }
     }
-    Some(Block { header: rows[at], keys })
+    model.block(&lines[begun..]);
+    mappings(&model.objects, &mut model.refusals);
+    model.refusals
+}
+
+/// What the reader knows while it reads.
+struct Model<'t> {
+    objects: BTreeMap<u32, Object<'t>>,
+    /// The object of the section before: its storage location is looked at before a sub-index's own object is.
+    before: Option<u32>,
+    refusals: Refusals,
+}
+
+impl<'t> Model<'t> {
+    /// A text that ends with several empty lines has a section of one empty line for the reader.
+    fn empty_lines_at_the_end(&mut self, lines: &[Line<'t>], end: usize) {
+        let empty = lines.iter().rev().take_while(|line| line.text.is_empty()).count();
+        // One break is that of the last line that is not empty.
+        let breaks = empty + usize::from(empty < lines.len());
+        if breaks >= 3 && breaks % 2 == 1 {
+            self.refusals.add(Place { start: end, end }, Cause::Text, "empty lines at the end of the file");
+        }
+    }
+
+    /// Lines between two empty ones: what the reader takes for a section.
+    fn block(&mut self, lines: &[Line<'t>]) {
+        let Some(first) = lines.iter().find(|line| !line.text.is_empty()) else { return };
+        let Some(at) = lines.iter().position(|line| line.text.starts_with('[')) else {
+            let what = "lines between two empty lines without a section name";
+            return self.refusals.add(first.place(), Cause::Text, what);
+        };
+        let (header, lines) = (&lines[at], &lines[at + 1..]);
+        for line in lines {
+            if let Some(what) = refused(line) {
+                self.refusals.add(line.place(), Cause::Text, what);
+            }
+        }
+        let keys = lines
+            .iter()
+            .filter(|line| !line.has(Signs::SECOND_EQUALS))
+            .filter_map(|line| Some((line.pair()?, line.place())));
+        match Kind::of(header.text) {
+            Kind::Object(index) => {
+                if let Some(object) = object(&Entry::of(keys), &mut self.refusals)
+                    && self.objects.insert(index, object).is_some()
+                {
+                    self.refusals.add(header.place(), Cause::Text, "a section that is written twice");
+                }
+                self.before = Some(index);
+            }
+            Kind::Sub(index, sub) => {
+                let before = self.before.replace(index);
+                self.add_sub(before, (index, sub), &Entry::of(keys), header.place());
+            }
+            Kind::List => {
+                let keys = keys.map(|((key, value), place)| (key, (value, place))).collect();
+                list(&keys, header.place(), &mut self.refusals);
+            }
+            Kind::Other => {}
+        }
+    }
+
+    fn add_sub(&mut self, before: Option<u32>, (index, sub): (u32, u32), entry: &Entry<'t>, header: Place) {
+        if before != Some(index)
+            && matches!(before.and_then(|before| self.objects.get(&before)), None | Some(Object::Single))
+        {
+            self.refusals.add(header, Cause::Order, "a sub-index that does not follow its object");
+        }
+        let data_type = entry.data_type.and_then(|(text, _)| number(text));
+        let data_type =
+            data_type.filter(|number| matches!(number, 1..=0x0D | 0x0F..=0x16 | 0x18..=0x1B)).unwrap_or(7);
+        let value = entry.default.unwrap_or(("0", header));
+        let subs = match self.objects.get_mut(&index) {
+            None => return self.refusals.add(header, Cause::Order, "a sub-index before its object"),
+            Some(Object::Single) => {
+                let what = "a sub-index of an object that is a single value";
+                return self.refusals.add(header, Cause::Value, what);
+            }
+            Some(Object::Record(subs)) => subs,
+            Some(Object::Array(subs, common)) => {
+                if sub != 0 && *common.get_or_insert(data_type) != data_type {
+                    let place = entry.data_type.map_or(header, |(_, place)| place);
+                    let what = "an ARRAY whose elements differ in their data type";
+                    self.refusals.add(place, Cause::Value, what);
+                }
+                subs
+            }
+        };
+        if subs.insert(sub, value).is_some() && sub != 0 {
+            self.refusals.add(header, Cause::Text, "a section that is written twice");
+        }
+    }
+}
+
+/// Why a line of a section is refused.
+fn refused(line: &Line<'_>) -> Option<&'static str> {
+    if line.pair().is_some() {
+        return line.has(Signs::SECOND_EQUALS).then_some("a line with a second `=`");
+    }
+    match line.text.as_bytes().first()? {
+        b'[' => Some("a section name without an empty line above"),
+        b';' | b'#' => Some("a comment among the keys of a section"),
+        _ => Some("a line without `=`"),
+    }
+}
+
+impl<'t> Entry<'t> {
+    fn of(keys: impl Iterator<Item = ((&'t str, &'t str), Place)>) -> Self {
+        let mut entry = Self::default();
+        for ((key, value), place) in keys {
+            let known = match key {
+                "ObjectType" => &mut entry.object_type,
+                "DataType" => &mut entry.data_type,
+                "DefaultValue" => &mut entry.default,
+                _ => continue,
+            };
+            *known = Some((value, place));
+        }
+        entry
+    }
 }
 
 fn hexadecimal(text: &str) -> Option<u32> {
@@ -111,66 +205,28 @@ fn number(text: &str) -> Option<i128> {
     int(text, if text.starts_with("0x") { 16 } else { 10 })
 }
 
-fn object<'t>(block: &Block<'t>, refusals: &mut Refusals) -> Option<Object<'t>> {
-    let Some((text, place)) = block.keys.get("ObjectType") else { return Some(Object::Single) };
+fn object<'t>(entry: &Entry<'t>, refusals: &mut Refusals) -> Option<Object<'t>> {
+    let Some((text, place)) = entry.object_type else { return Some(Object::Single) };
     match number(text) {
         Some(7) => Some(Object::Single),
         Some(8) => Some(Object::Array(Subs::new(), None)),
         Some(9) => Some(Object::Record(Subs::new())),
         Some(_) => {
-            refusals.add(*place, Cause::Unknown, "an object type other than VAR, ARRAY and RECORD");
+            refusals.add(place, Cause::Unknown, "an object type other than VAR, ARRAY and RECORD");
             None
         }
         None => {
-            refusals.add(*place, Cause::Number, "an object type that is not a number");
+            refusals.add(place, Cause::Number, "an object type that is not a number");
             None
         }
     }
 }
 
-fn add_sub<'t>(
-    objects: &mut BTreeMap<u32, Object<'t>>,
-    before: Option<u32>,
-    (index, sub): (u32, u32),
-    block: &Block<'t>,
-    refusals: &mut Refusals,
-) {
-    let header = block.header.place();
-    if before != Some(index)
-        && matches!(before.and_then(|before| objects.get(&before)), None | Some(Object::Single))
-    {
-        refusals.add(header, Cause::Order, "a sub-index that does not follow its object");
+fn list(keys: &BTreeMap<&str, Value<'_>>, header: Place, refusals: &mut Refusals) {
+    if !keys.contains_key("SupportedObjects") {
+        refusals.add(header, Cause::Missing, "`SupportedObjects`, spelled so");
     }
-    let data_type = block.keys.get("DataType").and_then(|(text, _)| number(text));
-    let data_type =
-        data_type.filter(|number| matches!(number, 1..=0x0D | 0x0F..=0x16 | 0x18..=0x1B)).unwrap_or(7);
-    let value = block.keys.get("DefaultValue").copied().unwrap_or(("0", header));
-    let subs = match objects.get_mut(&index) {
-        None => return refusals.add(header, Cause::Order, "a sub-index before its object"),
-        Some(Object::Single) => {
-            return refusals.add(header, Cause::Value, "a sub-index of an object that is a single value");
-        }
-        Some(Object::Record(subs)) => subs,
-        Some(Object::Array(subs, common)) => {
-            if sub != 0 && *common.get_or_insert(data_type) != data_type {
-                let place = block.keys.get("DataType").map_or(header, |(_, place)| *place);
-                refusals.add(place, Cause::Value, "an ARRAY whose elements differ in their data type");
-            }
-            subs
-        }
-    };
-    if subs.insert(sub, value).is_some() && sub != 0 {
-        refusals.add(header, Cause::Text, "a section that is written twice");
-    }
-}
-
-fn list(block: &Block<'_>, refusals: &mut Refusals) {
-    if !block.keys.contains_key("SupportedObjects") {
-        refusals.add(block.header.place(), Cause::Missing, "`SupportedObjects`, spelled so");
-    }
-    for (value, place) in
-        block.keys.iter().filter(|(key, _)| **key != "SupportedObjects").map(|(_, item)| item)
-    {
+    for (value, place) in keys.iter().filter(|(key, _)| **key != "SupportedObjects").map(|(_, item)| item) {
         refusals.wants(
             number(value),
             *place,

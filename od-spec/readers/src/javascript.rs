@@ -1,54 +1,98 @@
 //! What JavaScript makes of texts: numbers, and the INI files of the package `ini`.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use super::refusal::{Place, rows};
+use super::lines::{Line, Signs};
+use super::refusal::Place;
 
 /// A value of an INI file.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Value {
-    Text(String),
+pub(super) enum Value<'t> {
+    Text(Cow<'t, str>),
     /// `true` or `false`, which the package takes for Booleans; a key without `=` is true.
     Boolean(bool),
     /// `null`.
     Null,
 }
 
-/// The keys of a section with their last value.
-pub(super) type Keys = BTreeMap<String, (Value, Place)>;
+/// A section: where its first header is, and its keys of which one asks, each as often as it is spelled in another way.
+#[derive(Debug)]
+pub(super) struct Section<'t> {
+    pub header: Place,
+    keys: Vec<Key<'t>>,
+}
 
-/// Sections by name, and where their first header is.
-pub(super) fn sections(text: &str) -> BTreeMap<String, (Place, Keys)> {
-    let mut sections: BTreeMap<String, (Place, Keys)> = BTreeMap::new();
-    let mut current: Option<String> = None;
-    for row in rows(text) {
-        if row.text.is_empty() || row.text.trim_start().starts_with([';', '#']) {
+/// A key with its last value.
+#[derive(Debug)]
+struct Key<'t> {
+    /// How it is spelled by the standard.
+    known: &'static str,
+    spelled: Cow<'t, str>,
+    value: Value<'t>,
+    place: Place,
+}
+
+impl<'t> Section<'t> {
+    /// The value of a key that has the case of the standard, with its place.
+    pub(super) fn get(&self, key: &str) -> Option<(&Value<'t>, Place)> {
+        let found = self.keys.iter().find(|one| one.known == key && one.spelled == key)?;
+        Some((&found.value, found.place))
+    }
+
+    /// Where a key is, also in another case, or the section.
+    pub(super) fn place(&self, key: &str) -> Place {
+        let alike = || self.keys.iter().filter(|one| one.known == key).min_by_key(|one| &one.spelled);
+        self.get(key).map(|(_, place)| place).or_else(|| alike().map(|one| one.place)).unwrap_or(self.header)
+    }
+
+    fn set(&mut self, new: Key<'t>) {
+        match self.keys.iter_mut().find(|one| one.known == new.known && one.spelled == new.spelled) {
+            Some(key) => *key = new,
+            None => self.keys.push(new),
+        }
+    }
+}
+
+/// Sections by name, of those of which one asks. `keys` are the keys of which one asks.
+pub(super) fn sections<'t>(
+    lines: &[Line<'t>],
+    is_wanted: impl Fn(&str) -> bool,
+    keys: &[&'static str],
+) -> BTreeMap<Cow<'t, str>, Section<'t>> {
+    let mut sections: BTreeMap<Cow<'t, str>, Section<'t>> = BTreeMap::new();
+    let mut current: Option<&mut Section<'t>> = None;
+    for line in lines {
+        if line.text.is_empty() || line.text.trim_start().starts_with([';', '#']) {
             continue;
         }
         // A header is a whole line; with a space after it, it is a key.
-        if let Some(name) = row.text.strip_prefix('[').and_then(|text| text.strip_suffix(']'))
+        if let Some(name) = line.text.strip_prefix('[').and_then(|text| text.strip_suffix(']'))
             && !name.contains(']')
         {
-            let name = plain(name);
-            sections.entry(name.clone()).or_insert_with(|| (row.place(), Keys::new()));
-            current = Some(name);
+            let name = plain(name, line);
+            let section = || Section { header: line.place(), keys: Vec::with_capacity(keys.len()) };
+            current =
+                if is_wanted(&name) { Some(sections.entry(name).or_insert_with(section)) } else { None };
             continue;
         }
-        let (key, value) = match row.text.split_once('=') {
+        let Some(section) = &mut current else { continue };
+        let (key, value) = match line.pair() {
             Some(("", _)) => continue,
-            Some((key, value)) => (key, value_of(value)),
-            None => (row.text, Value::Boolean(true)),
+            Some((key, value)) => (plain(key, line), Some(value)),
+            None => (plain(line.text, line), None),
         };
-        if let Some((_, keys)) = current.as_ref().and_then(|section| sections.get_mut(section)) {
-            keys.insert(plain(key), (value, row.place()));
+        if let Some(known) = keys.iter().copied().find(|known| known.eq_ignore_ascii_case(&key)) {
+            let value = value.map_or(Value::Boolean(true), |value| value_of(value, line));
+            section.set(Key { known, spelled: key, value, place: line.place() });
         }
     }
     sections
 }
 
-fn value_of(text: &str) -> Value {
-    let text = plain(text);
-    match text.as_str() {
+fn value_of<'t>(text: &'t str, line: &Line<'t>) -> Value<'t> {
+    let text = plain(text, line);
+    match &*text {
         "true" => Value::Boolean(true),
         "false" => Value::Boolean(false),
         "null" => Value::Null,
@@ -56,12 +100,15 @@ fn value_of(text: &str) -> Value {
     }
 }
 
-/// A text without quotation marks, or up to the first `;` or `#` that no backslash precedes.
-fn plain(text: &str) -> String {
+/// A text of a line without quotation marks, or up to the first `;` or `#` that no backslash precedes.
+fn plain<'t>(text: &'t str, line: &Line<'t>) -> Cow<'t, str> {
     let text = text.trim();
+    if !line.has(Signs::QUOTE) && !line.has(Signs::REMARK) {
+        return Cow::Borrowed(text);
+    }
     for mark in ['"', '\''] {
         if let Some(inner) = text.strip_prefix(mark).and_then(|text| text.strip_suffix(mark)) {
-            return inner.to_owned();
+            return Cow::Borrowed(inner);
         }
     }
     let (mut out, mut escaped) = (String::new(), false);
@@ -84,7 +131,7 @@ fn plain(text: &str) -> String {
     if escaped {
         out.push('\\');
     }
-    out.trim().to_owned()
+    Cow::Owned(out.trim().to_owned())
 }
 
 /// `parseInt(text)`: what can be read in front; `None` for no number.
@@ -137,6 +184,7 @@ pub(super) fn big_int(text: &str) -> Option<i128> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lines::lines;
 
     #[test]
     fn numbers_are_read_as_javascript_does() {
@@ -154,14 +202,17 @@ mod tests {
 
     #[test]
     fn a_value_ends_at_a_remark() {
-        let text = "[a]\nb=1 ; c\nd=x\\;y\n[e] \nf=\"g\"\nh\n";
-        let sections = sections(text);
-        let (_, keys) = &sections["a"];
-        let value = |key: &str| keys.get(key).map(|(value, _)| value.clone());
-        assert_eq!(value("b"), Some(Value::Text("1".to_owned())));
-        assert_eq!(value("d"), Some(Value::Text("x;y".to_owned())));
+        let text = "[a]\nb=1 ; c\nd=x\\;y\n[e] \nf=\"g\"\nh\nB=2\nb=3\n[c]\nb=4\n";
+        let sections = sections(&lines(text), |name| name == "a", &["b", "d", "[e]", "f", "h"]);
+        assert_eq!(sections.keys().collect::<Vec<_>>(), ["a"]);
+        let section = &sections["a"];
+        let value = |key: &str| section.get(key).map(|(value, _)| value.clone());
+        let text_of = |text: &'static str| Some(Value::Text(Cow::Borrowed(text)));
+        assert_eq!(value("b"), text_of("3"));
+        assert_eq!(value("d"), text_of("x;y"));
         assert_eq!(value("[e]"), Some(Value::Boolean(true)));
-        assert_eq!(value("f"), Some(Value::Text("g".to_owned())));
+        assert_eq!(value("f"), text_of("g"));
         assert_eq!(value("h"), Some(Value::Boolean(true)));
+        assert_eq!(value("B"), None);
     }
 }

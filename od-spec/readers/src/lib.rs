@@ -9,6 +9,7 @@ mod canopen_host;
 mod dcfchk;
 mod eds_utils;
 mod javascript;
+mod lines;
 mod mark;
 mod node_canopen;
 mod python;
@@ -20,12 +21,16 @@ mod table;
 pub use mark::mark;
 pub use table::{Stumbling, stumbling};
 
+use lines::lines;
+use od_spec::diag::Diagnostic;
 use od_spec::diag::readers::Reader;
 use od_spec::eds::is_eds;
 use od_spec::encoding::Encoding;
 use od_spec::source::{FileId, SourceFile, SourceMap};
 use od_spec::{Compiled, departures};
+use python::{Capitals, Ini, Remarks};
 use refusal::{Cause, Place, Refusal, Refusals};
+use reported::both_ways;
 
 /// Adds to what the compiler says what matters only when a file is checked: which programs refuse an EDS for what is
 /// found, and where devices depart from their libraries.
@@ -40,9 +45,21 @@ pub fn remark(sources: &SourceMap, root: FileId, compiled: &mut Compiled) {
     }
 }
 
+/// What is known of a file by the models of readers.
+struct Predicted {
+    /// What the readers that were run refuse.
+    refusals: Vec<Refusal>,
+    /// What others are reported to stumble over, and no rule says.
+    reported: Option<Diagnostic>,
+}
+
 /// What readers refuse in a file.
-fn refusals(file: FileId, source: &SourceFile) -> Vec<Refusal> {
+fn predicted(file: FileId, source: &SourceFile) -> Predicted {
     let text = source.text();
+    let lines = lines(text);
+    // Case matters for one of the readers that are written in Python, and `#` begins a remark for another.
+    let ini = Ini::read(&lines, Remarks::Semicolon, Capitals::AreAlike);
+    let reported = both_ways(&ini, file);
     let mut all = Vec::new();
     if let Some(place) = not_in_utf8(source) {
         for reader in [Reader::PythonCanopen, Reader::Dcfchk, Reader::EdsUtils, Reader::CanopenHost] {
@@ -51,8 +68,8 @@ fn refusals(file: FileId, source: &SourceFile) -> Vec<Refusal> {
             all.extend(refusals.list);
         }
         // They see no more of it.
-        all.extend(node_canopen::refusals(text, file).list);
-        return all;
+        all.extend(node_canopen::refusals(&lines, file).list);
+        return Predicted { refusals: all, reported };
     }
     if source.encoding() == Encoding::Utf8WithMark {
         let mark = Place { start: 0, end: text.lines().next().unwrap_or_default().len() };
@@ -65,12 +82,21 @@ fn refusals(file: FileId, source: &SourceFile) -> Vec<Refusal> {
             all.extend(refusals.list);
         }
     }
-    all.extend(python_canopen::refusals(text, file).list);
-    all.extend(dcfchk::refusals(text, file).list);
-    all.extend(eds_utils::refusals(text, file).list);
-    all.extend(node_canopen::refusals(text, file).list);
+    all.extend(if ini.has_hashes() {
+        dcfchk::refusals(&Ini::read(&lines, Remarks::Both, Capitals::AreAlike), file).list
+    } else {
+        dcfchk::refusals(&ini, file).list
+    });
+    let with_capitals = if ini.has_variants() {
+        Ini::read(&lines, Remarks::Semicolon, Capitals::Matter)
+    } else {
+        ini.with_capitals()
+    };
+    all.extend(python_canopen::refusals(&with_capitals, file).list);
+    all.extend(eds_utils::refusals(text, &lines, file).list);
+    all.extend(node_canopen::refusals(&lines, file).list);
     all.extend(canopen_host::refusals(text, file).list);
-    all
+    Predicted { refusals: all, reported }
 }
 
 /// The first character of a text that is stored in neither ASCII nor UTF-8.

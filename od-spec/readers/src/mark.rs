@@ -3,9 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::refusal::{Cause, Refusal};
-use super::refusals;
-use super::reported::both_ways;
 use super::table::stumbling;
+use super::{Predicted, predicted};
 use od_spec::diag::readers::{Evidence, Reader, Readers};
 use od_spec::diag::{Diagnostic, Diagnostics};
 use od_spec::source::{FileId, SourceFile, SourceMap, Span};
@@ -41,7 +40,7 @@ pub fn mark(sources: &SourceMap, file: FileId, diagnostics: &mut Diagnostics) {
             by_line.entry(source.line_index(label.span.start)).or_default().push(diagnostic);
         }
     }
-    let all = refusals(file, source);
+    let Predicted { refusals: all, reported } = predicted(file, source);
     // A finding may be said once for many places, so what it says of a reader holds for all of them.
     let mut remarked: BTreeSet<(Reader, Cause, &str)> = BTreeSet::new();
     for refusal in &all {
@@ -55,7 +54,7 @@ pub fn mark(sources: &SourceMap, file: FileId, diagnostics: &mut Diagnostics) {
     }
     let unreported = all.into_iter().filter(|one| !remarked.contains(&(one.reader, one.cause, one.what)));
     diagnostics.as_mut_slice().iter_mut().for_each(Diagnostic::tell_readers);
-    let reported = both_ways(source.text(), file).map(|mut note| {
+    let reported = reported.map(|mut note| {
         note.tell_readers();
         note
     });

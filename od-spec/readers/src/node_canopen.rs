@@ -2,44 +2,56 @@
 
 use std::collections::BTreeMap;
 
-use super::javascript::{Keys, Value, big_int, number, parse_int, sections};
+use super::javascript::{Section, Value, big_int, number, parse_int, sections};
+use super::lines::Line;
 use super::refusal::{Cause, Place, Refusals};
 use od_spec::diag::readers::Reader;
 use od_spec::source::FileId;
 
-pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
+/// The keys that it looks at.
+const KEYS: [&str; 10] = [
+    "ParameterName",
+    "ObjectType",
+    "DataType",
+    "AccessType",
+    "DefaultValue",
+    "PDOMapping",
+    "LowLimit",
+    "HighLimit",
+    "SubNumber",
+    "CompactSubObj",
+];
+
+pub(super) fn refusals(lines: &[Line<'_>], file: FileId) -> Refusals {
     let mut refusals = Refusals::new(Reader::NodeCanopen, file);
-    let sections = sections(text);
+    let sections = sections(lines, |name| index(name).is_some() || sub_index(name).is_some(), &KEYS);
     // Whether an object has sub-indices; one that could not be made has them, as far as is known.
     let mut objects: BTreeMap<u16, bool> = BTreeMap::new();
-    for (name, (header, keys)) in &sections {
+    for (name, section) in &sections {
         let Some(index) = index(name) else { continue };
-        let object = Section { header: *header, keys };
-        let has_subs = entry(&object, &mut refusals);
+        let has_subs = entry(section, &mut refusals);
         if objects.insert(index, has_subs).is_some() {
-            refusals.add(*header, Cause::Text, "a section that is written twice, in different case");
+            let what = "a section that is written twice, in different case";
+            refusals.add(section.header, Cause::Text, what);
         }
     }
-    for (name, (header, keys)) in &sections {
-        let Some((index, sub)) = name.split_once("sub").filter(|(_, sub)| is_hexadecimal(sub)) else {
-            continue;
-        };
-        let Some(index) = self::index(index) else { continue };
+    for (name, section) in &sections {
+        let Some((index, sub)) = sub_index(name) else { continue };
         match objects.get(&index) {
-            None => refusals.add(*header, Cause::Reference, "a sub-index without its object"),
+            None => refusals.add(section.header, Cause::Reference, "a sub-index without its object"),
             Some(false) => {
-                refusals.add(*header, Cause::Value, "a sub-index of an object that is a single value");
+                let what = "a sub-index of an object that is a single value";
+                refusals.add(section.header, Cause::Value, what);
             }
             Some(true) if u8::from_str_radix(sub, 16).is_err() => {
-                refusals.add(*header, Cause::Value, "a sub-index above FFh");
+                refusals.add(section.header, Cause::Value, "a sub-index above FFh");
             }
             Some(true) => {}
         }
-        let section = Section { header: *header, keys };
-        if section.number("SubNumber").is_some() && u32::from_str_radix(sub, 16) == Ok(0) {
+        if number_in(section, "SubNumber").is_some() && u32::from_str_radix(sub, 16) == Ok(0) {
             refusals.add(section.place("SubNumber"), Cause::Value, "`SubNumber` of a sub-index 0");
         }
-        entry(&section, &mut refusals);
+        entry(section, &mut refusals);
     }
     refusals
 }
@@ -52,38 +64,26 @@ fn index(name: &str) -> Option<u16> {
     (name.len() == 4 && is_hexadecimal(name)).then(|| u16::from_str_radix(name, 16).ok())?
 }
 
-struct Section<'s> {
-    header: Place,
-    keys: &'s Keys,
+/// The index and the digits of the sub-index in the name of a section.
+fn sub_index(name: &str) -> Option<(u16, &str)> {
+    let (index, sub) = name.split_once("sub").filter(|(_, sub)| is_hexadecimal(sub))?;
+    Some((self::index(index)?, sub))
 }
 
-impl Section<'_> {
-    /// A number other than 0; 0 and what is not a number are as if they were not there.
-    fn number(&self, key: &str) -> Option<i128> {
-        match self.keys.get(key)? {
-            (Value::Text(text), _) => parse_int(text).filter(|number| *number != 0),
-            (Value::Boolean(_) | Value::Null, _) => None,
-        }
-    }
-
-    /// Where a key is, also in another case, or the section.
-    fn place(&self, key: &str) -> Place {
-        let named =
-            || self.keys.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|(_, found)| found);
-        self.keys.get(key).or_else(named).map_or(self.header, |(_, place)| *place)
-    }
-
-    fn has(&self, key: &str) -> bool {
-        self.keys.contains_key(key)
+/// A number other than 0; 0 and what is not a number are as if they were not there.
+fn number_in(section: &Section<'_>, key: &str) -> Option<i128> {
+    match section.get(key)? {
+        (Value::Text(text), _) => parse_int(text).filter(|number| *number != 0),
+        (Value::Boolean(_) | Value::Null, _) => None,
     }
 }
 
 /// Whether it has sub-indices.
 fn entry(section: &Section<'_>, refusals: &mut Refusals) -> bool {
-    if !section.has("ParameterName") {
+    if section.get("ParameterName").is_none() {
         refusals.add(section.place("ParameterName"), Cause::Missing, "`ParameterName`, spelled so");
     }
-    match section.number("ObjectType").unwrap_or(7) {
+    match number_in(section, "ObjectType").unwrap_or(7) {
         5 | 7 => {
             value(section, refusals);
             false
@@ -104,25 +104,25 @@ fn entry(section: &Section<'_>, refusals: &mut Refusals) -> bool {
 }
 
 fn value(section: &Section<'_>, refusals: &mut Refusals) {
-    let data_type = section.number("DataType");
+    let data_type = number_in(section, "DataType");
     if data_type.is_none() {
         refusals.add(section.place("DataType"), Cause::Missing, "`DataType`, spelled so, with a number");
     }
-    if section.number("CompactSubObj").is_some() {
+    if number_in(section, "CompactSubObj").is_some() {
         let what = "`CompactSubObj` of an object that is a single value";
         refusals.add(section.place("CompactSubObj"), Cause::Value, what);
     }
-    if let (Some(low), Some(high)) = (section.number("LowLimit"), section.number("HighLimit"))
+    if let (Some(low), Some(high)) = (number_in(section, "LowLimit"), number_in(section, "HighLimit"))
         && high < low
     {
         refusals.add(section.place("LowLimit"), Cause::Value, "limits in the wrong order");
     }
-    if let (Some(data_type), Some((default, place))) = (data_type, section.keys.get("DefaultValue")) {
-        default_value(data_type, default, *place, refusals);
+    if let (Some(data_type), Some((default, place))) = (data_type, section.get("DefaultValue")) {
+        default_value(data_type, default, place, refusals);
     }
 }
 
-fn default_value(data_type: i128, value: &Value, place: Place, refusals: &mut Refusals) {
+fn default_value(data_type: i128, value: &Value<'_>, place: Place, refusals: &mut Refusals) {
     let bits = match data_type {
         0x02 | 0x05 => 8,
         0x03 | 0x06 => 16,
@@ -162,31 +162,31 @@ fn default_value(data_type: i128, value: &Value, place: Place, refusals: &mut Re
 }
 
 fn structured(section: &Section<'_>, refusals: &mut Refusals) {
-    if section.number("CompactSubObj").is_some() {
-        if section.number("DataType").is_none() {
+    if number_in(section, "CompactSubObj").is_some() {
+        if number_in(section, "DataType").is_none() {
             refusals.add(section.place("DataType"), Cause::Missing, "the data type of a compact array");
         }
         return;
     }
     let what = "a key of a single value in an ARRAY or RECORD";
     for key in ["AccessType", "DefaultValue", "PDOMapping"] {
-        if section.has(key) {
+        if section.get(key).is_some() {
             refusals.add(section.place(key), Cause::Value, what);
         }
     }
     for key in ["DataType", "LowLimit", "HighLimit"] {
-        if section.number(key).is_some() {
+        if number_in(section, key).is_some() {
             refusals.add(section.place(key), Cause::Value, what);
         }
     }
 }
 
 fn domain(section: &Section<'_>, refusals: &mut Refusals) {
-    if section.has("PDOMapping") {
+    if section.get("PDOMapping").is_some() {
         refusals.add(section.place("PDOMapping"), Cause::Value, "`PDOMapping` of a DOMAIN, also with 0");
     }
     for key in ["LowLimit", "HighLimit", "CompactSubObj"] {
-        if section.number(key).is_some() {
+        if number_in(section, key).is_some() {
             refusals.add(section.place(key), Cause::Value, "a limit or an element count of a DOMAIN");
         }
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::python::{Capitals, Ini, Section, int};
+use super::python::{Ini, Section, int};
 use super::refusal::{Cause, Place, Refusals};
 use od_spec::diag::readers::Reader;
 use od_spec::source::FileId;
@@ -29,23 +29,24 @@ enum Object {
     Structured { has_first: bool },
 }
 
-pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
+/// Of a text that is read with regard to case.
+pub(super) fn refusals(ini: &Ini<'_>, file: FileId) -> Refusals {
     let mut refusals = Refusals::new(Reader::PythonCanopen, file);
-    let ini = Ini::read(text, &[';'], Capitals::Matter, &mut refusals);
-    information(&ini, &mut refusals);
+    ini.refuse(&mut refusals);
+    information(ini, &mut refusals);
     let mut objects = BTreeMap::new();
     for section in &ini.sections {
         match Kind::of(section.name) {
             Some(Kind::Dummies) => dummies(section, &mut refusals),
             Some(Kind::Object(index)) => {
-                if let Some(object) = object(&ini, section, &mut refusals) {
+                if let Some(object) = object(ini, section, &mut refusals) {
                     objects.insert(index, object);
                 }
             }
             Some(Kind::Sub(index, sub)) => match objects.get_mut(&index) {
                 Some(Object::Structured { has_first }) => {
                     *has_first |= sub == 1;
-                    entry(&ini, section, &mut refusals);
+                    entry(ini, section, &mut refusals);
                 }
                 Some(Object::Single) => {}
                 None => refusals.add(section.header, Cause::Order, "a sub-index before its object"),
@@ -148,15 +149,18 @@ fn entry(ini: &Ini<'_>, section: &Section<'_>, refusals: &mut Refusals) {
     {
         number(defined, "DefaultValue", 0, refusals);
     }
-    let place = section.place_in_any_capitals("AccessType");
-    refusals.wants(section.item("AccessType"), place, Cause::Missing, "`AccessType`, spelled so");
+    wants(section, "AccessType", "`AccessType`, spelled so", refusals);
     optional(section, "PDOMapping", 0, refusals);
 }
 
 fn name(section: &Section<'_>, refusals: &mut Refusals) {
-    let item = section.item("ParameterName");
-    let place = section.place_in_any_capitals("ParameterName");
-    refusals.wants(item, place, Cause::Missing, "`ParameterName`, spelled so");
+    wants(section, "ParameterName", "`ParameterName`, spelled so", refusals);
+}
+
+fn wants(section: &Section<'_>, key: &str, what: &'static str, refusals: &mut Refusals) {
+    if section.item(key).is_none() {
+        refusals.add(section.place_in_any_capitals(key), Cause::Missing, what);
+    }
 }
 
 /// Names of the elements of a compact array: as many as there are, without gaps.
@@ -182,7 +186,11 @@ fn number(section: &Section<'_>, key: &'static str, base: u32, refusals: &mut Re
         refusals.add(section.place_in_any_capitals(key), Cause::Missing, missing(key));
         return None;
     };
-    refusals.wants(int(value, base), section.place(key), Cause::Number, UNREADABLE)
+    let number = int(value, base);
+    if number.is_none() {
+        refusals.add(section.place(key), Cause::Number, UNREADABLE);
+    }
+    number
 }
 
 fn optional(section: &Section<'_>, key: &str, base: u32, refusals: &mut Refusals) {

@@ -99,31 +99,3 @@ impl Refusals {
         found
     }
 }
-
-/// A line, with the byte at which it begins.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Row<'t> {
-    pub text: &'t str,
-    pub start: usize,
-}
-
-impl Row<'_> {
-    pub(super) fn place(&self) -> Place {
-        Place { start: self.start, end: self.start + self.text.len() }
-    }
-}
-
-/// The lines of a text for readers that know the breaks of all systems.
-pub(super) fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
-    let mut start = 0;
-    std::iter::from_fn(move || {
-        let rest = text.get(start..).filter(|rest| !rest.is_empty())?;
-        let row = Row {
-            text: &rest[..memchr::memchr2(b'\r', b'\n', rest.as_bytes()).unwrap_or(rest.len())],
-            start,
-        };
-        let end = row.place().end;
-        start = end + if text[end..].starts_with("\r\n") { 2 } else { 1 };
-        Some(row)
-    })
-}

@@ -1,7 +1,6 @@
 //! What readers are reported to stumble over, and no rule says.
 
-use super::python::{Capitals, Ini, int};
-use super::refusal::Refusals;
+use super::python::{Ini, int};
 use od_spec::diag::Diagnostic;
 use od_spec::diag::readers::codes::BOTH_WAYS;
 use od_spec::diag::readers::{Reader, Readers};
@@ -10,11 +9,8 @@ use od_spec::source::{FileId, Span};
 /// The first index that is not an object of communication.
 const FIRST_OF_DEVICE: u32 = 0x2000;
 
-/// A note about entries that may be mapped and are both read and written.
-pub(super) fn both_ways(text: &str, file: FileId) -> Option<Diagnostic> {
-    // What Python does not like about the text is said elsewhere.
-    let mut unsaid = Refusals::new(Reader::Codesys, file);
-    let ini = Ini::read(text, &[';'], Capitals::AreAlike, &mut unsaid);
+/// A note about entries that may be mapped and are both read and written. Of a text that is read without regard to case.
+pub(super) fn both_ways(ini: &Ini<'_>, file: FileId) -> Option<Diagnostic> {
     let entries = ini.sections.iter().filter(|section| {
         let index = section.name.get(..4).and_then(|digits| u32::from_str_radix(digits, 16).ok());
         let is_mappable =

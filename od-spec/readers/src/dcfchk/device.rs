@@ -34,7 +34,7 @@ pub(super) fn device(ini: &Ini<'_>, refusals: &mut Refusals) {
         for entry in 1..=count {
             let Some(value) = section.value(&entry.to_string()) else { break };
             let Some(index) = int(value, 0).and_then(|index| u16::try_from(index).ok()) else { continue };
-            if let Some(section) = ini.section(&format!("{index:04X}")) {
+            if let Some(section) = ini.object(index) {
                 objects.insert(index, object(ini, section, index, refusals));
             }
         }
@@ -53,10 +53,8 @@ fn object<'t>(ini: &'t Ini<'_>, section: &'t Section<'_>, index: u16, refusals: 
     let (subs, elements) = (number("SubNumber"), number("CompactSubObj"));
     let mut object = Object::new();
     if subs != 0 {
-        for sub in 0..255 {
-            if let Some(section) = ini.section(&format!("{index:04X}sub{sub:X}")) {
-                object.extend(entry(section, refusals).map(|entry| (sub, entry)));
-            }
+        for (sub, section) in ini.subs(index) {
+            object.extend(entry(section, refusals).map(|entry| (sub, entry)));
         }
         return object;
     }
@@ -134,7 +132,7 @@ fn identity(ini: &Ini<'_>, objects: &BTreeMap<u16, Object<'_>>, refusals: &mut R
                 parse(*entry, refusals);
             }
             None => {
-                let place = ini.place(if ini.section(&format!("{index:04X}")).is_some() {
+                let place = ini.place(if ini.object(index).is_some() {
                     if index == 0x1000 { "1000" } else { "1018" }
                 } else {
                     "MandatoryObjects"

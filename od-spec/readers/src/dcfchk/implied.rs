@@ -27,7 +27,7 @@ pub(super) fn implied(ini: &Ini<'_>, refusals: &mut Refusals) -> Implied {
     }
     let counts = [(0x1400, number("NrOfRxPDO")), (0x1800, number("NrOfTxPDO"))];
     for (first, count) in counts {
-        let is_there = |index: u16| ini.section(&format!("{index:04X}")).is_some();
+        let is_there = |index: u16| ini.object(index).is_some();
         let described = (first..first + 512).filter(|index| is_there(*index)).count();
         let mut missing = count - i128::try_from(described).unwrap_or(i128::MAX);
         for index in (first..first + 512).filter(|index| !is_there(*index)) {

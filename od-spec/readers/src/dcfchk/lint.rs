@@ -64,6 +64,17 @@ pub(super) fn lint(ini: &Ini<'_>, refusals: &mut Refusals) {
         );
     }
     for section in &ini.sections {
+        match section.number {
+            Some((index, None)) => {
+                objects::object(ini, section, index, refusals);
+                continue;
+            }
+            Some((index, Some(sub))) => {
+                objects::sub_index(ini, section, index, sub.into(), refusals);
+                continue;
+            }
+            None => {}
+        }
         match section.name.to_lowercase().as_str() {
             "comments" => {}
             "fileinfo" => keys(section, FILE, refusals),
@@ -148,7 +159,11 @@ fn list(ini: &Ini<'_>, section: &Section<'_>, refusals: &mut Refusals) {
         match int(&item.value, 0) {
             None => refusals.add(item.place, Cause::Number, "an index in another notation than `0x1000`"),
             Some(index) => {
-                if ini.section(&format!("{index:04X}")).is_none() {
+                let object = match u16::try_from(index) {
+                    Ok(index) => ini.object(index),
+                    Err(_) => ini.section(&format!("{index:X}")),
+                };
+                if object.is_none() {
                     refusals.add(item.place, Cause::Reference, "a listed object without a section");
                 }
                 if let Some(what) = misplaced(section.name, index) {
@@ -173,7 +188,7 @@ fn misplaced(list: &str, index: i128) -> Option<&'static str> {
 
 /// Names or values of the elements of a compact array.
 fn elements(ini: &Ini<'_>, section: &Section<'_>, index: u16, refusals: &mut Refusals) {
-    let object = ini.section(&format!("{index:04X}"));
+    let object = ini.object(index);
     let mut count = 0;
     if let Some(object) = object {
         match object.filled("CompactSubObj").map(|item| (int(&item.value, 0), item.place)) {

@@ -6,15 +6,16 @@ mod lint;
 mod objects;
 mod values;
 
-use super::python::{Capitals, Ini};
+use super::python::Ini;
 use super::refusal::Refusals;
 use od_spec::diag::readers::Reader;
 use od_spec::source::FileId;
 
-pub(super) fn refusals(text: &str, file: FileId) -> Refusals {
+/// Of a text that is read without regard to case.
+pub(super) fn refusals(ini: &Ini<'_>, file: FileId) -> Refusals {
     let mut refusals = Refusals::new(Reader::Dcfchk, file);
-    let ini = Ini::read(text, &['#', ';'], Capitals::AreAlike, &mut refusals);
-    lint::lint(&ini, &mut refusals);
-    device::device(&ini, &mut refusals);
+    ini.refuse(&mut refusals);
+    lint::lint(ini, &mut refusals);
+    device::device(ini, &mut refusals);
     refusals
 }

@@ -60,11 +60,11 @@ pub(super) fn object(ini: &Ini<'_>, section: &Section<'_>, index: u16, refusals:
 }
 
 fn count(ini: &Ini<'_>, section: &Section<'_>, index: u16, subs: i128, refusals: &mut Refusals) {
-    let described = (0..255).filter_map(|sub| ini.section(&format!("{index:04X}sub{sub:X}"))).count();
+    let described = ini.subs(index).count();
     if i128::try_from(described) != Ok(subs) {
         refusals.add(section.place("SubNumber"), Cause::Value, "a wrong number of sub-indices");
     }
-    if let Some(first) = ini.section(&format!("{index:04X}sub0"))
+    if let Some(first) = ini.sub(index, 0)
         && number(first, "DataType", 0, refusals) != 5
     {
         refusals.add(first.place("DataType"), Cause::Value, "a sub-index 0 that is no UNSIGNED8");
@@ -72,7 +72,7 @@ fn count(ini: &Ini<'_>, section: &Section<'_>, index: u16, subs: i128, refusals:
 }
 
 pub(super) fn sub_index(ini: &Ini<'_>, section: &Section<'_>, index: u16, sub: u32, refusals: &mut Refusals) {
-    if ini.section(&format!("{index:04X}")).is_none() {
+    if ini.object(index).is_none() {
         refusals.add(section.header, Cause::Reference, "a sub-index without its object");
     }
     if sub > 254 {
@@ -88,16 +88,21 @@ pub(super) fn sub_index(ini: &Ini<'_>, section: &Section<'_>, index: u16, sub: u
 
 fn keys(section: &Section<'_>, refusals: &mut Refusals) {
     for item in &section.items {
-        let key = item.key.to_lowercase();
-        if !KEYS.contains(&key.as_str()) {
+        if !is_one_of(item.key, &KEYS) {
             refusals.add(item.place, Cause::Unknown, "a key of this name of an object");
-        } else if key == "accesstype" && !ACCESS.contains(&item.value.to_lowercase().as_str()) {
+        } else if item.key.eq_ignore_ascii_case("AccessType") && !is_one_of(&item.value, &ACCESS) {
             refusals.add(item.place, Cause::Value, "not a valid access type");
         }
     }
     if section.item("ParameterName").is_none() {
         refusals.add(section.header, Cause::Missing, "`ParameterName`");
     }
+}
+
+/// Whether a word is among words in lower case.
+fn is_one_of(word: &str, known: &[&str]) -> bool {
+    let is_ascii = known.iter().any(|one| one.eq_ignore_ascii_case(word));
+    is_ascii || !word.is_ascii() && known.contains(&word.to_lowercase().as_str())
 }
 
 /// A number, if the key is there and not empty.
