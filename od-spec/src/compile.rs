@@ -26,7 +26,6 @@ use crate::standard;
 use crate::visible::straight;
 use crate::wording::FileFormat;
 use crate::xdd::{self, Disabled};
-use crate::yaml;
 use crate::yaml::gaps;
 
 /// What [`compile`] gives.
@@ -107,7 +106,7 @@ pub fn compile_with_modules(
 
 /// Whether a text says by a key that it is a specification, a part of one or a library.
 pub fn is_specification(text: &str) -> bool {
-    yaml::is_marked(text, keys::SPEC_VERSION) || yaml::is_marked(text, keys::PART_OF)
+    keys::is_marked(text, keys::SPEC_VERSION) || keys::is_marked(text, keys::PART_OF)
 }
 
 /// Whether a text shows by its beginning or its name what it is, and is not a specification.

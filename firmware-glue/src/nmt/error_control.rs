@@ -98,9 +98,6 @@ impl ErrorControl {
         state: State,
         now: Instant,
     ) -> Option<(Frame, Option<Guarding>)> {
-        if !is_guardable(dictionary) {
-            return None;
-        }
         let is_question = frame.id() == node.identifier(ERROR_CONTROL) && frame.bytes().is_none();
         if !is_question || state == State::Initialising || !heartbeat_time(dictionary).is_zero() {
             return None;
@@ -154,12 +151,6 @@ impl ErrorControl {
             Life::Guarded(_) | Life::Unguarded | Life::Lost => None,
         }
     }
-}
-
-/// Whether the device has the objects of guarding.
-fn is_guardable<'t, D: Dictionary<'t>>(dictionary: &D) -> bool {
-    let parameters = Parameters::of(dictionary);
-    parameters.has(0x100C) || parameters.has(0x100D)
 }
 
 /// 100Ch × 100Dh; no time is off.

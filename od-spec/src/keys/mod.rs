@@ -9,6 +9,7 @@ mod file;
 mod libraries;
 mod machines;
 mod manual;
+mod mark;
 mod objects;
 mod parameters;
 mod pdos;
@@ -28,6 +29,7 @@ pub use manual::{
     AXIS, BLOCK, CONTENT, ERRATUM, FIGURE, INFLOW, MARK, SECTION, SIGNAL, SPAN, SWITCH, TABLE_BITS,
     TABLE_LADDER, TABLE_PDOS, TABLE_ROWS, TIMING, TIMING_STEP,
 };
+pub(crate) use mark::is_marked;
 pub use objects::{ARRAY, OBJECT, SUB0};
 pub use parameters::{PARAMETER_FILE, PARAMETERS_VERSION};
 pub use pdos::{

@@ -6,7 +6,7 @@ use crate::ast::SettingDecl;
 use crate::commissioning::{self, Commissioning, TextOfNode};
 use crate::decode;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
-use crate::keys::{KeyKind, PARAMETER_FILE, PARAMETERS_VERSION, Shape};
+use crate::keys::{KeyKind, PARAMETER_FILE, PARAMETERS_VERSION, Shape, is_marked};
 use crate::model::{Dictionary, System};
 use crate::source::{FileId, SourceMap, Spanned};
 use crate::yaml::{self, Document, Node};
@@ -38,7 +38,7 @@ pub struct ParameterFile {
 
 /// Whether a text is a parameter file: its first key says so.
 pub fn is_parameter_file(text: &str) -> bool {
-    yaml::is_marked(text, PARAMETERS_VERSION)
+    is_marked(text, PARAMETERS_VERSION)
 }
 
 /// Reads a parameter file. What is wrong with it by itself goes to `diagnostics`: whether the device has what it names, and

@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 use crate::ast::Name;
 use crate::commissioning::Commissioning;
-use crate::keys::PLANT_VERSION;
+use crate::keys::{PLANT_VERSION, is_marked};
 use crate::model::{Dictionary, System};
 use crate::node_of_file::NodeOfFile;
 use crate::parameters::Layer;
@@ -302,5 +302,5 @@ impl Plant {
 
 /// Whether a text is a plant file: its first key says so.
 pub fn is_plant(text: &str) -> bool {
-    crate::yaml::is_marked(text, PLANT_VERSION)
+    is_marked(text, PLANT_VERSION)
 }

@@ -165,15 +165,6 @@ impl Document {
     }
 }
 
-/// Lines of a text in which it says what it is. `content.js` of the extension for VS Code has the same number.
-const BEGINNING: usize = 100;
-
-/// Whether a text says by this key what it is: it stands at the beginning of a line, after nothing but comments and a few other keys.
-pub(crate) fn is_marked(text: &str, key: &str) -> bool {
-    let begins = |line: &str| line.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with(':'));
-    text.lines().take(BEGINNING).any(begins)
-}
-
 /// Reads one YAML document. `None` when nothing usable was found; the reason is in `diagnostics` then.
 pub fn parse(id: FileId, file: &SourceFile, diagnostics: &mut Diagnostics) -> Option<Node> {
     parse_as(Document::Specification, id, file, diagnostics)

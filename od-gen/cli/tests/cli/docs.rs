@@ -209,7 +209,7 @@ fn templates_are_exported_joined_and_replaced() {
     assert_eq!(code(&output), 2);
     let output = odgen(&scratch.0, &["docs", "lamp.od.yaml", "--dump-context"]);
     assert!(
-        stdout(&output).starts_with("{\n  \"format\": 2,\n  \"language\": \"en\""),
+        stdout(&output).starts_with("{\n  \"format\": 3,\n  \"language\": \"en\""),
         "{}",
         stdout(&output)
     );

@@ -34,7 +34,7 @@ const NOT_SHOWN: [(&str, &str); 12] = [
     ("Receive start", "of an entry that no PDO of the device has"),
     ("Subtitle text", "of the cover of the printed manual"),
     ("Address text", "of the cover of the printed manual"),
-    ("Key text", "of the index of the printed tables"),
+    ("Section words", "by which the search finds something"),
     ("Value words", "by which the search finds something"),
     ("Bit words", "by which the search finds something"),
     ("Error words", "by which the search finds something"),

@@ -176,8 +176,13 @@ fn an_unlock_lifts_the_lock_of_one_entry_alone() {
 }
 
 #[test]
-fn a_parameter_file_is_known_by_its_first_key() {
-    let right = ["od-parameters: 1", "# a comment\n\n---\nod-parameters : 1\n", "od-parameters:"];
+fn a_parameter_file_is_known_by_the_first_key_that_says_what_it_is() {
+    let right = [
+        "od-parameters: 1",
+        "# a comment\n\n---\nod-parameters : 1\n",
+        "od-parameters:",
+        "spec: oven.od.yaml\nod-parameters: 1",
+    ];
     let wrong =
         ["", "od-spec: 1\nod-parameters: 1", "od-parameters-x: 1", "  od-parameters: 1", "[FileInfo]\n"];
     assert!(right.iter().all(|text| is_parameter_file(text)));

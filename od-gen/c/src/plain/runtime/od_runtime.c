@@ -1349,34 +1349,6 @@ bool od_correct_stored(
 
 /* PDOs. */
 
-/** The mapping of a PDO that exists now: the row of the number of entries, and the number. */
-static uint8_t mapping_of(
-    const od_table_t *table, const uint8_t *image, uint16_t first, uint16_t number, od_row_t *row, uint32_t *count)
-{
-    uint16_t at;
-    uint32_t cob_id;
-    if ((number < 1U) || (number > 512U)) {
-        return OD_PDO_MISSING;
-    }
-    for (at = 0U; at < table->pdo_count; at++) {
-        const od_pdo_t *pdo = &table->pdos[at];
-        if (pdo->index == (uint32_t)first + number - 1U) {
-            if (!number_in(table, image, found_at(table, pdo->cob_id), &cob_id)) {
-                return OD_PDO_MISSING;
-            }
-            if ((cob_id & NOT_VALID) != 0U) {
-                return OD_PDO_NOT_VALID;
-            }
-            *row = pdo->mapping;
-            if (!number_in(table, image, found_at(table, pdo->mapping), count) || (*count < 1U) || (*count > 64U)) {
-                return OD_PDO_NOT_MAPPED;
-            }
-            return OD_PDO_OK;
-        }
-    }
-    return OD_PDO_MISSING;
-}
-
 /** What is mapped at a position, and its bits; OD_NONE as the row of a placeholder. */
 static bool mapped_at(
     const od_table_t *table, const uint8_t *image, od_row_t mapping, uint32_t at, od_found_t *found, uint32_t *bits)
@@ -1394,6 +1366,57 @@ static bool mapped_at(
     return lookup(table, (uint16_t)(parameter >> 16), (uint8_t)((parameter >> 8) & 0xFFU), found) == OD_OK;
 }
 
+/** The bits of all that is mapped, if it is there and fits into a frame. */
+static bool mapped_bits(const od_table_t *table, const uint8_t *image, od_row_t mapping, uint32_t count, uint32_t *bits)
+{
+    bool fits = true;
+    uint32_t at;
+    *bits = 0U;
+    for (at = 0U; fits && (at < count); at++) {
+        od_found_t found;
+        uint32_t own = 0U;
+        fits = mapped_at(table, image, mapping, at, &found, &own);
+        *bits += own;
+        fits = fits && (*bits <= FRAME_BITS);
+    }
+    return fits;
+}
+
+/** The mapping of a PDO that exists now: the row of the number of entries, the number, and the bits of all entries. */
+static uint8_t mapping_of(
+    const od_table_t *table,
+    const uint8_t *image,
+    uint16_t first,
+    uint16_t number,
+    od_row_t *row,
+    uint32_t *count,
+    uint32_t *bits)
+{
+    uint16_t at;
+    uint32_t cob_id;
+    if ((number < 1U) || (number > 512U)) {
+        return OD_PDO_MISSING;
+    }
+    for (at = 0U; at < table->pdo_count; at++) {
+        const od_pdo_t *pdo = &table->pdos[at];
+        if (pdo->index == (uint32_t)first + number - 1U) {
+            if (!number_in(table, image, found_at(table, pdo->cob_id), &cob_id)) {
+                return OD_PDO_MISSING;
+            }
+            if ((cob_id & NOT_VALID) != 0U) {
+                return OD_PDO_NOT_VALID;
+            }
+            *row = pdo->mapping;
+            if (!number_in(table, image, found_at(table, pdo->mapping), count) || (*count < 1U) || (*count > 64U)
+                || !mapped_bits(table, image, *row, *count, bits)) {
+                return OD_PDO_NOT_MAPPED;
+            }
+            return OD_PDO_OK;
+        }
+    }
+    return OD_PDO_MISSING;
+}
+
 static uint64_t mask_of(uint32_t bits)
 {
     return (bits < 64U) ? (((uint64_t)1U << bits) - 1U) : UINT64_MAX;
@@ -1409,10 +1432,11 @@ uint8_t od_pack(
 {
     od_row_t mapping = 0U;
     uint32_t count = 0U;
+    uint32_t sum = 0U;
     uint32_t filled = 0U;
     uint64_t word = 0U;
     uint32_t at;
-    uint8_t result = mapping_of(table, image, TRANSMIT, number, &mapping, &count);
+    uint8_t result = mapping_of(table, image, TRANSMIT, number, &mapping, &count, &sum);
     *length = 0U;
     if (result != OD_PDO_OK) {
         return result;
@@ -1428,16 +1452,13 @@ uint8_t od_pack(
         if (value_of(table, image, found, &value) != OD_OK) {
             return OD_PDO_NO_VALUE;
         }
-        if ((filled + bits) > FRAME_BITS) {
-            return OD_PDO_NOT_MAPPED;
-        }
         if (filled < FRAME_BITS) {
             word |= (od_get_unsigned(od_value_bytes(&value), value.length) & mask_of(bits)) << filled;
         }
         filled += bits;
     }
     od_put_unsigned(data, 8U, word);
-    *length = (uint8_t)((filled + 7U) / 8U);
+    *length = (uint8_t)((sum + 7U) / 8U);
     return OD_PDO_OK;
 }
 
@@ -1458,22 +1479,12 @@ uint8_t od_unpack(
     uint32_t at;
     od_found_t found;
     uint32_t bits;
-    uint8_t result = mapping_of(table, image, RECEIVE, number, &mapping, &count);
+    uint8_t result = mapping_of(table, image, RECEIVE, number, &mapping, &count, &sum);
     received->too_long = false;
     received->refused = OD_NONE;
     received->code = OD_OK;
     if (result != OD_PDO_OK) {
         return result;
-    }
-    for (at = 0U; at < count; at++) {
-        const od_row_t row = (od_row_t)((at + mapping + 1U) & 0xFFFFU);
-        if (!number_in(table, image, found_at(table, row), &bits)) {
-            return OD_PDO_NOT_MAPPED;
-        }
-        sum += bits & 0xFFU;
-    }
-    if (sum > FRAME_BITS) {
-        return OD_PDO_NOT_MAPPED;
     }
     bytes = ((size_t)sum + 7U) / 8U;
     if (length < bytes) {
