@@ -26,6 +26,19 @@ pub(crate) enum Exceeded {
     Time,
 }
 
+impl Limits {
+    /// The limit that so much memory and time exceeds.
+    fn exceeded(self, memory: usize, time: Duration) -> Option<Exceeded> {
+        if memory > self.memory {
+            Some(Exceeded::Memory)
+        } else if time > self.time {
+            Some(Exceeded::Time)
+        } else {
+            None
+        }
+    }
+}
+
 /// Does some work. If it exceeds a limit, `exceeded` is called once while it runs; the work itself cannot be interrupted, so that
 /// `exceeded` has to end the process.
 pub(crate) fn limited<T>(
@@ -34,17 +47,13 @@ pub(crate) fn limited<T>(
     work: impl FnOnce() -> T,
 ) -> T {
     let used = || memory_stats().map_or(0, |memory| memory.physical_mem);
-    let most = used().saturating_add(limits.memory);
-    let start = Instant::now();
+    let (before, start) = (used(), Instant::now());
     thread::scope(|scope| {
         let (work_lasts, until_it_ends) = channel::<()>();
         scope.spawn(move || {
             while until_it_ends.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
-                if used() > most {
-                    return exceeded(Exceeded::Memory);
-                }
-                if start.elapsed() > limits.time {
-                    return exceeded(Exceeded::Time);
+                if let Some(limit) = limits.exceeded(used().saturating_sub(before), start.elapsed()) {
+                    return exceeded(limit);
                 }
             }
         });
@@ -57,6 +66,14 @@ pub(crate) fn limited<T>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn memory_and_time_have_a_limit_each() {
+        let (second, limits) = (Duration::from_secs(1), Limits { memory: 1, time: Duration::from_secs(1) });
+        assert_eq!(limits.exceeded(1, second), None);
+        assert_eq!(limits.exceeded(2, second), Some(Exceeded::Memory));
+        assert_eq!(limits.exceeded(1, 2 * second), Some(Exceeded::Time));
+    }
 
     /// What work that goes on until it is stopped has exceeded.
     fn stopped(limits: Limits) -> Exceeded {
