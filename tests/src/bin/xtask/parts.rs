@@ -124,7 +124,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 48] = [
+pub(crate) static PARTS: [Part; 50] = [
     rust("form", "form", Tier::Check, form::check),
     rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
@@ -146,7 +146,7 @@ pub(crate) static PARTS: [Part; 48] = [
     Part {
         turn: Turn::Beside,
         ..rust("mutants", "mutants of files", Tier::Gate, |runner| {
-            runner.fuzz(&["--seconds", "15", "--seed", "1"])
+            runner.fuzz(&["--seconds", "5", "--seed", "1"])
         })
     },
     Part {
@@ -182,7 +182,12 @@ pub(crate) static PARTS: [Part; 48] = [
     reader("plant", "EDS readers: a plant", Tier::Gate, readers::plant),
     reader("values", "EDS readers: values of nodes", Tier::Gate, readers::values_of_nodes),
     reader("book", "the book and its links", Tier::Gate, readers::book),
-    Part { turn: Turn::Waiting, ..reader("faults", "faults on a live bus", Tier::Gate, readers::faults) },
+    Part {
+        turn: Turn::Waiting,
+        ..reader("faults", "faults on a live bus", Tier::Gate, |runner| {
+            readers::faults(runner, Amount::Sample)
+        })
+    },
     reader("dbc", "DBC readers", Tier::Gate, readers::dbc),
     reader("lsp", "language server", Tier::Gate, readers::language_server),
     reader("editors", "language server in Neovim", Tier::Gate, readers::editors),
@@ -218,7 +223,9 @@ pub(crate) static PARTS: [Part; 48] = [
         area: Area::Firmware,
         turn: Turn::Beside,
         needs: EMULATOR,
-        ..rust("demo", "demo firmware in an emulator", Tier::Gate, readers::demo_firmware)
+        ..rust("demo", "demo firmware in an emulator", Tier::Gate, |runner| {
+            readers::demo_firmware(runner, Amount::Sample)
+        })
     },
     Part {
         area: Area::Firmware,
@@ -310,8 +317,8 @@ pub(crate) static PARTS: [Part; 48] = [
         "long-st",
         "Structured Text of all devices",
         Tier::Long(
-            "the parser that others wrote takes minutes for it; the gate takes one device of each kind, and of its \
-             constants and of the planted faults each sixth",
+            "the parser that others wrote takes minutes for it; the gate takes two small devices and the limits of \
+             values, and of their constants and of the planted faults each sixth",
         ),
         |runner| readers::structured_text(runner, Amount::All),
     ),
@@ -322,7 +329,10 @@ pub(crate) static PARTS: [Part; 48] = [
         ..rust(
             "long-plain-c",
             "dictionaries in plain C with all random requests",
-            Tier::Long("finds rare faults only; the gate asks the first quarter of the same requests"),
+            Tier::Long(
+                "finds rare faults only; the gate asks the first quarter of the same requests, and one of the \
+                 shipped devices",
+            ),
             |runner| plain_c::try_all(runner, Amount::All),
         )
     },
@@ -344,6 +354,26 @@ pub(crate) static PARTS: [Part; 48] = [
             "SDO client with all devices",
             Tier::Long("asks three devices the same; the gate asks one"),
             |runner| readers::sdo_client(runner, Amount::All),
+        )
+    },
+    Part {
+        turn: Turn::Waiting,
+        ..reader(
+            "long-faults",
+            "faults on a live bus in every command",
+            Tier::Long("does the same to five commands; the gate does it to the one that writes most"),
+            |runner| readers::faults(runner, Amount::All),
+        )
+    },
+    Part {
+        area: Area::Firmware,
+        turn: Turn::Beside,
+        needs: EMULATOR,
+        ..rust(
+            "long-demo",
+            "firmware of all devices in an emulator",
+            Tier::Long("tries the entries of three devices in the same way; the gate tries those of one"),
+            |runner| readers::demo_firmware(runner, Amount::All),
         )
     },
     Part {
@@ -375,7 +405,8 @@ pub(crate) static PARTS: [Part; 48] = [
             "long-browser",
             "all documents in a browser",
             Tier::Long(
-                "looks at eight documents, at everything in each width; the gate looks at three, at one of each kind",
+                "looks at eight documents, at everything in each width; the gate looks at three, at one of each kind, \
+                 and asks the largest a third of the questions",
             ),
             |runner| browser::read_documents(runner, Amount::All),
         )

@@ -162,12 +162,17 @@ pub(crate) fn values_of_nodes(runner: &mut Runner) -> Result<(), Failure> {
     runner.run(Command::new(&python).args(arguments).arg(&odgen))
 }
 
-/// What `odgen node` does when something goes wrong in the middle of a command, as the chapter for operators shows it.
-pub(crate) fn faults(runner: &mut Runner) -> Result<(), Failure> {
+/// What `odgen node` does when something goes wrong in the middle of a command; all commands, as the chapter for operators shows it.
+pub(crate) fn faults(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let odgen = beside("odgen")?;
-    let arguments = ["tests/readers/fault_matrix.py", "--self-test", "--odgen"];
-    runner.run(Command::new(&python).args(arguments).arg(&odgen))
+    let commands: &[&str] = match amount {
+        Amount::Sample => &["--only", "restore"],
+        Amount::All => &["--self-test"],
+    };
+    runner.run(
+        Command::new(&python).arg("tests/readers/fault_matrix.py").args(commands).arg("--odgen").arg(&odgen),
+    )
 }
 
 /// The book: MkDocs follows each link and anchor, and takes no warning.
@@ -208,13 +213,15 @@ pub(crate) fn structured_text(runner: &mut Runner, amount: Amount) -> Result<(),
     command.arg("tests/readers/st.py").args(sample(amount)).arg("--odgen").arg(beside("odgen")?);
     command.arg("--frames").arg(beside("pdo-frames")?);
     let (as_it_is, faulty, specs): (&[&str], &[&str], &[&str]) = match amount {
-        Amount::Sample => (&["limits"], &["book/valve"], specs(amount)),
-        Amount::All => {
-            (&["limits", "everything"], &["book/valve", "book/lift", "readers/scales"], specs(amount))
-        }
+        Amount::Sample => (&["readers/limits", "book/lift"], &["book/valve"], &[]),
+        Amount::All => (
+            &["readers/limits", "readers/everything"],
+            &["book/valve", "book/lift", "readers/scales"],
+            specs(amount),
+        ),
     };
     for file in as_it_is {
-        command.arg("--as-it-is").arg(format!("tests/readers/{file}.od.yaml"));
+        command.arg("--as-it-is").arg(format!("tests/{file}.od.yaml"));
     }
     for file in faulty {
         command.arg("--faults").arg(format!("tests/{file}.od.yaml"));
@@ -292,8 +299,9 @@ pub(crate) fn sdo_client(runner: &mut Runner, amount: Amount) -> Result<(), Fail
 }
 
 /// The same client and `odgen node`, against the demo firmware on an emulated Cortex-M.
-pub(crate) fn demo_firmware(runner: &mut Runner) -> Result<(), Failure> {
+pub(crate) fn demo_firmware(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
     let odgen = beside("odgen")?;
-    runner.run(Command::new(&python).args(["tests/thumb/demo.py", "--odgen"]).arg(&odgen))
+    runner
+        .run(Command::new(&python).arg("tests/thumb/demo.py").args(sample(amount)).arg("--odgen").arg(&odgen))
 }

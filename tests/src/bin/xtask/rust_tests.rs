@@ -23,7 +23,8 @@ pub(crate) fn unit(runner: &mut Runner) -> Result<(), Failure> {
 
 /// The tests in folders of their own.
 pub(crate) fn integration(runner: &mut Runner) -> Result<(), Failure> {
-    runner.cargo(&["test", "--workspace", "--test", "*", "--no-fail-fast"])
+    // Those of commands wait for answers half of the time.
+    runner.cargo(&["test", "--workspace", "--test", "*", "--no-fail-fast", "--", "--test-threads", "4"])
 }
 
 /// The examples in the documentation, and what of `firmware-glue` no other package asks for.

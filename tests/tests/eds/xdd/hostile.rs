@@ -1,6 +1,8 @@
 //! Files that are cut off, changed by chance, deep or long: a message or a model, and never a panic.
 
 use od_formats::xdd::write_xdd;
+use od_spec::source::SourceMap;
+use od_spec::{NoFiles, add_source, compile};
 use od_tests::compile_clean;
 use proptest::prelude::*;
 
@@ -35,6 +37,20 @@ fn depth_has_a_limit_and_a_document_type_is_refused() {
     );
 }
 
+/// Bytes may be a text in an encoding that is not read; then the message says so.
+fn bytes_are_read_or_refused(bytes: Vec<u8>) {
+    let mut sources = SourceMap::new();
+    match add_source(&mut sources, "any.xdd", bytes) {
+        Ok(root) => drop(compile(&mut sources, root, &mut NoFiles)),
+        Err(refusal) => assert_eq!(refusal.code.id, "OD0102"),
+    }
+}
+
+#[test]
+fn few_bytes_may_be_a_text_in_gbk() {
+    bytes_are_read_or_refused(vec![0x81, 0x80, 0x81, 0x40]);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: od_tests::cases(200), ..ProptestConfig::default() })]
 
@@ -56,7 +72,7 @@ proptest! {
 
     #[test]
     fn any_bytes_are_read(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
-        let _ = compiled("any.xdd", bytes);
+        bytes_are_read_or_refused(bytes);
     }
 }
 
