@@ -12,7 +12,7 @@ import { becomes, check, end, fail, launch, same } from "./browser.mjs";
 
 const [docs, executablePath] = process.argv.slice(2, 4).map((path) => resolve(path));
 const { node, aborts, decimal_sign: sign, pages } = JSON.parse(readFileSync(join(docs, "workbench.json")));
-const isSample = process.argv[4] === "sample", MANY = 150, PART = 36;
+const isSample = process.argv[4] === "sample", MANY = 150, PART = 24;
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 const browser = await launch(executablePath);

@@ -22,6 +22,9 @@ use super::position::{Encoding, Lines};
 use super::trees::Trees;
 use super::unread;
 
+/// Bytes of the largest document that is checked while it is edited: some 50,000 objects, which take seconds and half a gigabyte.
+pub(super) const LARGEST: usize = 4 << 20;
+
 /// What a document is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -37,12 +40,14 @@ pub(super) enum Kind {
     Parameters,
     /// A file that is not for this server.
     Foreign,
+    /// A file that is too large to be checked while it is edited.
+    TooLarge,
 }
 
 impl Kind {
     /// What a text is, by its name and how it begins.
     fn of(name: &str, text: &str) -> Self {
-        if is_xdd(name, text) {
+        let kind = if is_xdd(name, text) {
             Kind::Xdd
         } else if is_eds(name, text) {
             Kind::Eds
@@ -54,7 +59,8 @@ impl Kind {
             Kind::Specification
         } else {
             Kind::Foreign
-        }
+        };
+        if kind != Kind::Foreign && text.len() > LARGEST { Kind::TooLarge } else { kind }
     }
 }
 
@@ -178,7 +184,7 @@ impl Analysis {
             }
             Kind::Plant => self.read_plant(root, loader),
             Kind::Parameters => self.read_parameters(root, loader),
-            Kind::Foreign => {}
+            Kind::Foreign | Kind::TooLarge => {}
         }
     }
 
@@ -279,7 +285,7 @@ impl Analysis {
                 self.described.iter().any(|one| self.place(one.root) == Some(spec))
                     || self.root.is_some_and(may_be)
             }
-            Kind::Specification | Kind::Eds | Kind::Xdd | Kind::Foreign => false,
+            Kind::Specification | Kind::Eds | Kind::Xdd | Kind::Foreign | Kind::TooLarge => false,
         }
     }
 

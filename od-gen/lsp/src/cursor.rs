@@ -21,7 +21,7 @@ impl<'a> Cursor<'a> {
     pub(super) fn of(snapshot: &'a Snapshot, position: Position) -> Option<Self> {
         match snapshot.now.kind {
             Kind::Specification | Kind::Plant | Kind::Parameters => {}
-            Kind::Eds | Kind::Xdd | Kind::Foreign => return None,
+            Kind::Eds | Kind::Xdd | Kind::Foreign | Kind::TooLarge => return None,
         }
         let offset = u32::try_from(snapshot.offset(position)).ok()?;
         Some(Self { snapshot, names: snapshot.names(), offset })

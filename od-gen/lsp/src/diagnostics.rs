@@ -11,7 +11,7 @@ use od_spec::diag::{self, Severity};
 use od_spec::rule_codes;
 use od_spec::source::{FileId, Span};
 
-use super::analysis::Analysis;
+use super::analysis::{Analysis, Kind, LARGEST};
 use super::copies;
 use super::place::Place;
 use super::position::Encoding;
@@ -19,7 +19,22 @@ use super::position::Encoding;
 /// What is said about a file of an analysis.
 pub(super) fn of_file(analysis: &Analysis, file: FileId, encoding: Encoding) -> Vec<Diagnostic> {
     let of_text = analysis.about(file).map(|diagnostic| translated(analysis, diagnostic, encoding));
-    of_text.chain(misread(analysis, file, encoding)).collect()
+    of_text.chain(misread(analysis, file, encoding)).chain(unchecked(analysis, file)).collect()
+}
+
+/// That a document is not checked, so that nobody takes the silence for praise.
+fn unchecked(analysis: &Analysis, file: FileId) -> Option<Diagnostic> {
+    (analysis.kind == Kind::TooLarge && Some(file) == analysis.root).then(|| Diagnostic {
+        severity: Some(DiagnosticSeverity::WARNING),
+        source: Some(SOURCE.to_owned()),
+        message: format!(
+            "this file is not checked while it is edited: it has {} MiB, expected at most {} MiB\nhelp: save it and run \
+             `odgen check`, or move a part of it into a file of its own (`parts:`)",
+            analysis.sources.file(file).text().len().div_ceil(1 << 20),
+            LARGEST >> 20,
+        ),
+        ..Diagnostic::default()
+    })
 }
 
 /// That the editor has read the file in another encoding than that in which it is stored.

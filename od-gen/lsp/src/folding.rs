@@ -12,7 +12,9 @@ pub(super) fn ranges(snapshot: &Snapshot) -> Vec<FoldingRange> {
         (0..snapshot.lines().count()).map(|line| snapshot.lines().line(text, line).1).collect();
     match snapshot.now.kind {
         Kind::Eds => of_sections(&lines),
-        Kind::Specification | Kind::Plant | Kind::Parameters | Kind::Xdd | Kind::Foreign => by_depth(&lines),
+        Kind::Specification | Kind::Plant | Kind::Parameters | Kind::Xdd | Kind::Foreign | Kind::TooLarge => {
+            by_depth(&lines)
+        }
     }
 }
 

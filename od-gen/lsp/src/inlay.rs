@@ -59,7 +59,7 @@ pub(super) fn hints(snapshot: &Snapshot, range: Range, wanted: &BTreeSet<Hint>) 
     match snapshot.now.kind {
         Kind::Specification => {}
         Kind::Eds if wanted.contains(&Hint::EntryName) => hints.extend(entry_names(snapshot, system)),
-        Kind::Eds | Kind::Xdd | Kind::Plant | Kind::Parameters | Kind::Foreign => {}
+        Kind::Eds | Kind::Xdd | Kind::Plant | Kind::Parameters | Kind::Foreign | Kind::TooLarge => {}
     }
     if snapshot.now.kind == Kind::Specification && wanted.contains(&Hint::RawValue) {
         hints.extend(raw_values(snapshot, good, system));

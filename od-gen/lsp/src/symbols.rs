@@ -18,7 +18,7 @@ pub(super) fn symbols(snapshot: &Snapshot) -> Vec<DocumentSymbol> {
             snapshot.last_tree().map(|tree| Walk { snapshot, tree }.sections()).unwrap_or_default()
         }
         Kind::Xdd => of_xdd(snapshot),
-        Kind::Foreign => Vec::new(),
+        Kind::Foreign | Kind::TooLarge => Vec::new(),
     }
 }
 

@@ -70,7 +70,13 @@ impl Language for Rust {
     }
 
     fn alternatives(&self, variants: &[&str]) -> String {
-        variants.join("Or")
+        match variants {
+            [only] => (*only).to_owned(),
+            // The underscore that makes another name of a keyword is not wanted inside of a name.
+            several => {
+                several.iter().map(|variant| variant.trim_end_matches('_')).collect::<Vec<_>>().join("Or")
+            }
+        }
     }
 }
 

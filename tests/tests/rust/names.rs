@@ -381,3 +381,13 @@ fn every_name_of_rust_can_be_a_name_of_every_kind() {
         scratch.compile("rustc", &program, &["--crate-name", "program", "--extern", &glue]);
     assert!(compiled && said.is_empty(), "{}", said.chars().take(20_000).collect::<String>());
 }
+
+#[test]
+fn a_keyword_among_special_values_leaves_no_underscore_in_the_name_of_their_type() {
+    let text = "objects:\n  0x2000: {name: level, type: unsigned16, access: rw, special: {0: \"self\", 1: \"other\"}}\n  \
+                0x2001: {name: one, type: unsigned16, access: rw, special: {0: \"self\"}}\n";
+    let module = modules("special", &of_one_device(text)).unwrap().remove(0).1;
+    for name in ["SelfOrOther", "Self_"] {
+        assert!(module.contains(&format!("pub enum {name} ")), "{name}");
+    }
+}

@@ -257,6 +257,22 @@ fn plants_and_parameter_files_are_checked_as_far_as_they_stand_alone() {
     assert_eq!(client.leave(), 0);
 }
 
+/// A hundred thousand objects would take seconds and a gigabyte at each key.
+#[test]
+fn a_document_that_is_too_large_is_not_checked_and_that_is_said() {
+    let mut client = Client::new("large");
+    let comment = "# A line that makes the document large, and nothing else.\n";
+    client.open("lamp.od.yaml", &(LAMP.to_owned() + &comment.repeat((4 << 20) / comment.len())));
+    let said = client.diagnostics("lamp.od.yaml", 1);
+    let [one] = said.as_slice() else { panic!("{said:?}") };
+    let message = one["message"].as_str().unwrap();
+    assert!(message.contains("it has 5 MiB, expected at most 4 MiB\nhelp: "), "{message}");
+    // What becomes small enough is checked.
+    client.replace("lamp.od.yaml", 2, &LAMP.replace("unit: celsius", "unit: celsus"));
+    assert_eq!(codes(&client.diagnostics("lamp.od.yaml", 2)), ["OD0608"]);
+    assert_eq!(client.leave(), 0);
+}
+
 /// A text that was never saved has a URI that is no file's.
 #[test]
 fn a_text_without_a_file_is_checked() {

@@ -42,7 +42,7 @@ pub(super) fn completion(
     match snapshot.now.kind {
         Kind::Specification | Kind::Plant | Kind::Parameters => {}
         Kind::Eds => return eds::completion(snapshot, position, insertion),
-        Kind::Xdd | Kind::Foreign => return Vec::new(),
+        Kind::Xdd | Kind::Foreign | Kind::TooLarge => return Vec::new(),
     }
     let (text, offset) = (snapshot.text(), snapshot.offset(position));
     let mut marked = String::with_capacity(text.len() + MARK.len_utf8());

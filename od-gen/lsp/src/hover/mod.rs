@@ -26,7 +26,7 @@ pub(super) fn hover(snapshot: &Snapshot, position: Position) -> Option<Hover> {
         }
         analysis::Kind::Eds => section::of_section(snapshot, position)?,
         analysis::Kind::Xdd => section::of_element(snapshot, position)?,
-        analysis::Kind::Foreign => return None,
+        analysis::Kind::Foreign | analysis::Kind::TooLarge => return None,
     };
     let contents = HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value: text });
     Some(Hover { contents, range: Some(snapshot.range(span)) })
