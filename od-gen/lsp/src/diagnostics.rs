@@ -22,7 +22,7 @@ pub(super) fn of_file(analysis: &Analysis, file: FileId, encoding: Encoding) -> 
     of_text.chain(misread(analysis, file, encoding)).chain(unchecked(analysis, file)).collect()
 }
 
-/// That a document is not checked, so that nobody takes the silence for praise.
+/// That a document is not checked: without a message it would look right.
 fn unchecked(analysis: &Analysis, file: FileId) -> Option<Diagnostic> {
     (analysis.kind == Kind::TooLarge && Some(file) == analysis.root).then(|| Diagnostic {
         severity: Some(DiagnosticSeverity::WARNING),
