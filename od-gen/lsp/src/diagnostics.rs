@@ -29,7 +29,7 @@ fn unchecked(analysis: &Analysis, file: FileId) -> Option<Diagnostic> {
         source: Some(SOURCE.to_owned()),
         message: format!(
             "this file is not checked while it is edited: it has {} MiB, expected at most {} MiB\nhelp: save it and run \
-             `odgen check`, or move a part of it into a file of its own (`parts:`)",
+             `odgen check`; a specification can be divided with `parts:`",
             analysis.sources.file(file).text().len().div_ceil(1 << 20),
             LARGEST >> 20,
         ),
