@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Be the master of the demo firmware on an emulated Cortex-M4: python-canopen over SLCAN, through the UART.
 
-    demo.py [--odgen target/debug/odgen] [--sample]     build, measure, run in QEMU, check
-    demo.py --run [PORT]                     build and run until Ctrl-C; the adapter is at tcp:127.0.0.1:3333
+    demo.py [--odgen target/debug/odgen] [--sample]    build, measure, run in QEMU, check
+    demo.py --run [PORT]                               build and run until Ctrl-C; the adapter is at tcp:127.0.0.1:3333
 
 The firmware is firmware-glue/examples/pitch-controller, a PMC. The client knows it by the generated EDS alone and does to it what
 tests/readers/virtual_node.py and virtual_pdo.py do to virtual nodes. Here is what a virtual node has not: an axis that moves, a

@@ -22,7 +22,7 @@ use super::position::{Encoding, Lines};
 use super::trees::Trees;
 use super::unread;
 
-/// Bytes of the largest document that is checked while it is edited: some 50,000 objects, which take seconds and half a gigabyte.
+/// Bytes of the largest document that is checked while it is edited: some 50,000 entries, which take two seconds.
 pub(super) const LARGEST: usize = 4 << 20;
 
 /// What a document is.

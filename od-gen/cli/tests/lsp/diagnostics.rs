@@ -257,7 +257,7 @@ fn plants_and_parameter_files_are_checked_as_far_as_they_stand_alone() {
     assert_eq!(client.leave(), 0);
 }
 
-/// A hundred thousand objects would take seconds and a gigabyte at each key.
+/// A hundred thousand entries would take seconds after each key.
 #[test]
 fn a_document_that_is_too_large_is_not_checked_and_that_is_said() {
     let mut client = Client::new("large");

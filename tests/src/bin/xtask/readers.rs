@@ -217,7 +217,7 @@ pub(crate) fn structured_text(runner: &mut Runner, amount: Amount) -> Result<(),
         Amount::All => (
             &["readers/limits", "readers/everything"],
             &["book/valve", "book/lift", "readers/scales"],
-            specs(amount),
+            &SPECS,
         ),
     };
     for file in as_it_is {
