@@ -44,6 +44,16 @@ pub fn is_long() -> bool {
     std::env::var_os(LONG).is_some()
 }
 
+/// Whether a test that tries many alike tries the one of this number: each of `step`, or all.
+pub fn is_tried(number: usize, step: usize) -> bool {
+    is_long() || number.is_multiple_of(step)
+}
+
+/// What a test tries of a few that are alike: the first, or all.
+pub fn sample<const N: usize, T>(all: [T; N]) -> impl Iterator<Item = T> {
+    all.into_iter().take(if is_long() { N } else { 1 })
+}
+
 /// How many cases a test with random values tries: the first quarter, or all.
 pub fn cases(all: u32) -> u32 {
     if is_long() { all } else { all.div_ceil(4) }

@@ -55,11 +55,11 @@ fn every_position_has_an_answer() {
         let file = format!("{name}.od.yaml");
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../od-spec/devices");
         let text = std::fs::read_to_string(Path::new(folder).join(&file)).unwrap();
-        let answers = asked(&file, &text, 31);
+        let answers = asked(&file, &text, 53);
         assert!(answers[0] > 30 && answers[1] > 0 && answers[2] > 0, "{name}: {answers:?}");
         // Cut in the middle, and with something left open.
         let middle = text.char_indices().nth(text.chars().count() / 2).unwrap().0;
-        asked(&file, &text[..middle], 211);
-        asked(&file, &format!("{}{{ \"x: [{}", &text[..middle], &text[middle..]), 211);
+        asked(&file, &text[..middle], 509);
+        asked(&file, &format!("{}{{ \"x: [{}", &text[..middle], &text[middle..]), 509);
     }
 }

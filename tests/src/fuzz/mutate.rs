@@ -347,9 +347,9 @@ mod tests {
     fn a_seed_gives_the_same_mutant_again() {
         let seeds = seeds();
         let made = |seed| mutant(&seeds, &EDS, &mut Random::new(seed)).unwrap().bytes;
-        let all: BTreeSet<Vec<u8>> = (0..200).map(made).collect();
-        assert!(all.len() > 190, "{}", all.len());
-        assert!((0..200).all(|seed| all.contains(&made(seed))));
+        let all: BTreeSet<Vec<u8>> = (0..60).map(made).collect();
+        assert!(all.len() > 55, "{}", all.len());
+        assert!((0..60).all(|seed| all.contains(&made(seed))));
         assert!(all.iter().all(|bytes| bytes.len() < 2 * LARGEST));
         assert!(mutant(&[], &EDS, &mut Random::new(1)).is_none());
     }

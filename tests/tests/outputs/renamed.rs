@@ -70,7 +70,7 @@ fn outputs(text: &str) -> Vec<(String, String)> {
 
 #[test]
 fn with_other_names_nothing_else_changes() {
-    for stem in SPECS {
+    for stem in od_tests::sample(SPECS) {
         let text = in_one_file(stem);
         let other_text = renamed(&text);
         assert_ne!(text, other_text);

@@ -110,7 +110,10 @@ fn clippy_has_nothing_to_say_under_its_own_lints() {
 #[test]
 fn without_firmware_glue_there_is_one_error_which_says_what_to_add() {
     let scratch = Scratch::new("no-glue");
-    for (name, module) in all_modules(rust::file) {
+    for (number, (name, module)) in all_modules(rust::file).into_iter().enumerate() {
+        if !od_tests::is_tried(number, 4) {
+            continue;
+        }
         let program = scratch.program(&[(name.clone(), module)], "");
         let (compiled, said) = scratch.compile("rustc", &program, &["--crate-name", "program"]);
         let errors = said.lines().filter(|line| line.starts_with("error") && !line.contains("aborting"));

@@ -273,7 +273,7 @@ fn a_planted_fault_is_found_at_its_line_and_mended() {
             wrong.push(format!("{what}: {outcome:?}, expected {:?}", fault.outcome));
         }
         // Small files are compared for every rule; of this large one, some.
-        if number % 6 == 0 || od_tests::is_long() {
+        if od_tests::is_tried(number, 18) {
             let differs = difference(name, text.as_bytes(), &fixed);
             wrong.extend(differs.map(|differs| format!("{what}: {differs}")));
         }

@@ -112,7 +112,7 @@ fn go_through(name: &str, bytes: &[u8]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: od_tests::cases(200), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: od_tests::cases(100), ..ProptestConfig::default() })]
 
     #[test]
     fn any_bytes(bytes in vec(any::<u8>(), 0..300)) {

@@ -62,7 +62,7 @@ fn every_key_that_takes_a_text_is_planted() {
 fn a_text_stays_a_text_in_every_output() {
     let mut complaints = Vec::new();
     let sites = sites(TEXTS);
-    for (payload, least) in [
+    let payloads = [
         (
             r#"x <b>x</b> *e* [l](javascript:x) `c` | & &lt "q" 'p' \ ${z} */ ]]> --> </script><script>alert(1)</script> ~~s~~"#,
             80,
@@ -75,7 +75,11 @@ fn a_text_stays_a_text_in_every_output() {
         ("> quote - item # h 1. ```", 60),
         ("\u{1b}[31m\u{1b}]0;x\u{7}\u{9b}2J\u{7f}\u{b}\r::error::x", 25),
         ("\u{202e}cba\u{2066}", 0),
-    ] {
+    ];
+    for (number, (payload, least)) in payloads.into_iter().enumerate() {
+        if !od_tests::is_tried(number, 2) {
+            continue;
+        }
         let mut look = |sources: &SourceMap, compiled: &Compiled| {
             check_messages(sources, compiled, &mut complaints);
         };
