@@ -50,7 +50,7 @@ use crate::source::{FileLoader, compile_file};
 /// ")?;
 /// let modules = od_gen::Builder::new(&specification).out_dir(&directory).try_generate()?;
 /// assert_eq!(modules, [directory.join("lamp.rs")]);
-/// assert!(std::fs::read_to_string(&modules[0])?.contains("pub fn brightness(&self) -> u8"));
+/// assert!(std::fs::read_to_string(&modules[0])?.contains("pub fn brightness"));
 /// # std::fs::remove_dir_all(&directory)?;
 /// # Ok(())
 /// # }
@@ -63,7 +63,7 @@ pub struct Builder {
     specification: PathBuf,
     devices: Vec<String>,
     out: Option<PathBuf>,
-    unformatted: bool,
+    layout: rust::Layout,
 }
 
 /// Why nothing was generated: what [`Builder::try_generate`] found.
@@ -95,7 +95,7 @@ struct Outcome {
 impl Builder {
     /// Of a specification, EDS or DCF; the path is relative to the package that is built.
     pub fn new(specification: impl Into<PathBuf>) -> Self {
-        Self { specification: specification.into(), devices: Vec::new(), out: None, unformatted: false }
+        Self { specification: specification.into(), devices: Vec::new(), out: None, layout: rust::plain_file }
     }
 
     /// Only this device, by its key; may be called for several. Without it, all.
@@ -110,10 +110,11 @@ impl Builder {
         self
     }
 
-    /// Leaves the modules as one long line each. Formatting takes most of the time of a build script, which cargo compiles
-    /// without optimisation: three fifths of it, whatever the size. It is well spent where people read the code.
-    pub fn unformatted(mut self) -> Self {
-        self.unformatted = true;
+    /// Lays the modules out for people. Without it, each item is one line: laying out takes most of the time of a build script,
+    /// which cargo compiles without optimisation.
+    #[cfg(feature = "format")]
+    pub fn formatted(mut self) -> Self {
+        self.layout = rust::file;
         self
     }
 
@@ -176,8 +177,7 @@ impl Builder {
             let wanted = Devices::listed(&self.devices);
             let devices = system.devices.iter().filter(|device| wanted.includes(&device.key));
             let provenance = Provenance::of(&sources);
-            let layout = if self.unformatted { rust::plain_file } else { rust::file };
-            let mut files = rust::modules(&system, devices, &provenance, layout, &mut diagnostics);
+            let mut files = rust::modules(&system, devices, &provenance, self.layout, &mut diagnostics);
             for file in &mut files {
                 file.path = file.path.replacen("src/", "", 1);
             }

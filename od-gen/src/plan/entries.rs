@@ -117,7 +117,7 @@ impl<'a> Plan<'a> {
         }
         let Some(placed) = self.layout.places.get(&id).copied() else { return };
         let attributes = self.attributes(id, parent.object, entry, placed, diagnostics);
-        let kind = self.kind(entry, diagnostics);
+        let kind = self.kind(entry, &words, diagnostics);
         if let Some(alias) = &entry.alias {
             self.push_alias(id, entry, alias, diagnostics);
         }

@@ -9,11 +9,14 @@ use od_spec::model::{
 use od_spec::rule_codes::ALIKE_NAMES;
 
 use super::language::{Companion, Role, ScopeKind};
-use super::names::Scope;
+use super::names::{Scope, Words};
 use super::{
     Fraction, Members, Plan, PlannedBits, PlannedOffset, PlannedSpecial, PlannedSpecialValue, PlannedType,
     PlannedUnit, PlannedValue, SignedFraction, ValueKind, too_large,
 };
+
+/// Most characters of the names of values that together name the type of a set of them.
+const LONGEST_LIST: usize = 80;
 
 impl<'a> Plan<'a> {
     /// Units, types and special values that the device's entries use, by name.
@@ -69,19 +72,20 @@ impl<'a> Plan<'a> {
         }
     }
 
-    pub(super) fn kind(&mut self, entry: &Entry, diagnostics: &mut Diagnostics) -> ValueKind {
+    /// What an entry's values are; `words` are its name.
+    pub(super) fn kind(&mut self, entry: &Entry, words: &Words, diagnostics: &mut Diagnostics) -> ValueKind {
         let named = entry.named_type.as_deref();
         let named = named.map(|named| self.identifier(ScopeKind::Types, Role::Type, &named.name));
         let integer = entry.data_type.is_integer() && named.is_none();
         let unit = entry.unit.as_deref().filter(|_| integer);
         let unit = unit.map(|unit| self.identifier(ScopeKind::Units, Role::Type, &unit.name));
-        let special = (integer && !entry.special.is_empty()).then(|| self.special(entry, diagnostics));
+        let special = (integer && !entry.special.is_empty()).then(|| self.special(entry, words, diagnostics));
         ValueKind { data_type: entry.data_type, named, unit, special }
     }
 
     /// The set of special values of an entry. Sets with the same meanings are one type in code, whatever their raw values: a
     /// broken wire is 32767 on one entry and 65535 on another, and the accessors of each know which.
-    fn special(&mut self, entry: &Entry, diagnostics: &mut Diagnostics) -> usize {
+    fn special(&mut self, entry: &Entry, words: &Words, diagnostics: &mut Diagnostics) -> usize {
         let values: Vec<_> = entry
             .special
             .iter()
@@ -91,8 +95,8 @@ impl<'a> Plan<'a> {
                 value: special.value,
             })
             .collect();
-        let variants: Vec<&str> = values.iter().map(|value| value.name.as_str()).collect();
-        let set = PlannedSpecial { name: self.language.alternatives(&variants), values };
+        let mut set = PlannedSpecial { name: String::new(), values };
+        set.name = self.special_name(&set, words);
         if let Some(at) = self.specials.iter().position(|planned| *planned == set) {
             return at;
         }
@@ -118,6 +122,22 @@ impl<'a> Plan<'a> {
         }
         self.specials.push(set);
         self.specials.len() - 1
+    }
+
+    /// The name of the type of a set: its values, or the first entry that has it where these are many, because each use of a
+    /// value repeats it.
+    fn special_name(&self, set: &PlannedSpecial, words: &Words) -> String {
+        let variants: Vec<&str> = set.values.iter().map(|value| value.name.as_str()).collect();
+        if variants.iter().map(|variant| variant.len()).sum::<usize>() <= LONGEST_LIST {
+            return self.language.alternatives(&variants);
+        }
+        match self.specials.iter().find(|planned| set.has_meanings_of(planned)) {
+            Some(same) => same.name.clone(),
+            None => {
+                let words = words.and("special values");
+                self.language.identifier(ScopeKind::SpecialValues, Role::Type, &words)
+            }
+        }
     }
 
     fn members(&self, named: &'a NamedType, diagnostics: &mut Diagnostics) -> Members<'a> {

@@ -1,16 +1,20 @@
-//! Generated code as a file that people read.
+//! Generated code as a file: for people, or for the compiler.
 
-use od_spec::diag::{Diagnostic, Diagnostics, codes};
+use od_spec::diag::Diagnostics;
+#[cfg(feature = "format")]
+use od_spec::diag::{Diagnostic, codes};
 use od_spec::eds::GENERATED;
 use od_spec::model::{Dictionary, System};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::{Provenance, language, tokens};
 use crate::artifact::Artifact;
 
-/// A way to write a module down: [`file()`] or [`plain_file`].
+/// A way to write a module down: [`plain_file`], or `file` with the feature `format`.
 pub type Layout = fn(&System, &Dictionary, &Provenance, &mut Diagnostics) -> Option<String>;
 
 /// A formatted file `src/KEY.rs` for each of some devices; of none when anything is wrong.
+#[cfg(feature = "format")]
 pub fn artifacts<'a>(
     system: &System,
     devices: impl Iterator<Item = &'a Dictionary>,
@@ -20,7 +24,7 @@ pub fn artifacts<'a>(
     modules(system, devices, provenance, file, diagnostics)
 }
 
-/// [`artifacts`], with a layout of one's own.
+/// A file `src/KEY.rs` with a layout for each of some devices; of none when anything is wrong.
 pub fn modules<'a>(
     system: &System,
     devices: impl Iterator<Item = &'a Dictionary>,
@@ -40,6 +44,7 @@ pub fn modules<'a>(
 }
 
 /// The module of a device as a formatted file, which can be a module or be included into one.
+#[cfg(feature = "format")]
 pub fn file(
     system: &System,
     device: &Dictionary,
@@ -62,26 +67,71 @@ pub fn file(
             return None;
         }
     };
-    let code = space_out(&prettyplease::unparse(&parsed));
-    // The compiler shows these lines: when there is no `firmware-glue`, and when the file was made for another layout of it.
-    let code = code.replacen(
-        "as firmware;",
-        "as firmware; // An error here? Add `firmware-glue` to the dependencies.",
-        1,
-    );
-    let code = code.replacen("as glue;", "as glue; // An error here? Generate this file again.", 1);
-    Some(header(device, provenance) + &code)
+    let mut out = header(device, provenance);
+    for line in space_out(&prettyplease::unparse(&parsed)).lines() {
+        out.push_str(line);
+        out.push_str(hint(line));
+        out.push('\n');
+    }
+    Some(out)
 }
 
-/// The module of a device as one long line: for the compiler, not for people.
+/// The module of a device with a statement in each line: for the compiler and its lints, which look at lines. Laying it out for people takes longer
+/// than everything before it.
 pub fn plain_file(
     system: &System,
     device: &Dictionary,
     provenance: &Provenance,
     diagnostics: &mut Diagnostics,
 ) -> Option<String> {
-    let tokens = tokens(system, device, diagnostics)?;
-    Some(format!("{}{tokens}\n", header(device, provenance)))
+    let mut out = header(device, provenance);
+    write_items(&mut out, tokens(system, device, diagnostics)?, 0);
+    Some(out)
+}
+
+fn write_items(out: &mut String, tokens: TokenStream, depth: usize) {
+    let mut line = Vec::new();
+    for token in tokens {
+        match token {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
+                write_line(out, &mut line, " {", depth);
+                write_items(out, group.stream(), depth + 1);
+                write_line(out, &mut line, "}", depth);
+            }
+            token => {
+                let is_end = matches!(&token, TokenTree::Punct(sign) if sign.as_char() == ';');
+                line.push(token);
+                if is_end {
+                    write_line(out, &mut line, "", depth);
+                }
+            }
+        }
+    }
+    if !line.is_empty() {
+        write_line(out, &mut line, "", depth);
+    }
+}
+
+fn write_line(out: &mut String, line: &mut Vec<TokenTree>, end: &str, depth: usize) {
+    let start = out.len();
+    out.extend(std::iter::repeat_n(' ', depth));
+    out.push_str(&line.drain(..).collect::<TokenStream>().to_string());
+    out.push_str(end);
+    let hint = hint(&out[start..]);
+    out.push_str(hint);
+    out.push('\n');
+}
+
+/// What the compiler shows with a line: when there is no `firmware-glue`, and when the file was made for another layout of it.
+fn hint(line: &str) -> &'static str {
+    let line = line.trim_end_matches(';').trim_end();
+    if line.ends_with(" as firmware") {
+        " // An error here? Add `firmware-glue` to the dependencies."
+    } else if line.ends_with(" as glue") {
+        " // An error here? Generate this file again."
+    } else {
+        ""
+    }
 }
 
 fn header(device: &Dictionary, provenance: &Provenance) -> String {
@@ -89,6 +139,7 @@ fn header(device: &Dictionary, provenance: &Provenance) -> String {
 }
 
 /// Puts blank lines between items: printers leave them out.
+#[cfg(feature = "format")]
 fn space_out(code: &str) -> String {
     let indent = |line: &str| line.len() - line.trim_start().len();
     let starts_item = |line: &str| {

@@ -103,7 +103,6 @@ const fn taken(scope: ScopeKind) -> &'static [&'static str] {
 }
 
 /// The name of a device's module.
-#[cfg(feature = "format")]
 pub(super) fn module(key: &str) -> String {
     Rust.identifier(ScopeKind::Constraints, Role::Function, &Words::of(key))
 }

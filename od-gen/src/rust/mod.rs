@@ -49,7 +49,7 @@ pub fn call(plan: &Plan<'_>, entry: &PlannedEntry<'_>) -> Option<String> {
     })
 }
 
-#[cfg(feature = "format")]
 mod file;
+pub use file::{Layout, modules, plain_file};
 #[cfg(feature = "format")]
-pub use file::{Layout, artifacts, file, modules, plain_file};
+pub use file::{artifacts, file};

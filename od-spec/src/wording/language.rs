@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 use crate::model::Date;
 
@@ -64,7 +64,7 @@ impl Language {
 
     /// Its texts, in the order of the file.
     pub fn lines(self) -> impl Iterator<Item = &'static Line> {
-        (self.texts)().lines.iter()
+        (self.texts)().sections.iter().flat_map(|section| &section.texts().lines)
     }
 
     /// The keys and texts of a section, in the order of the file.
@@ -119,35 +119,74 @@ pub struct Line {
 /// The texts of a language.
 #[derive(Debug)]
 pub struct Texts {
+    sections: Vec<Section>,
+}
+
+/// A section of the file of a language, which is read when one of its texts is asked for: most programs need a few of them.
+#[derive(Debug)]
+struct Section {
+    name: &'static str,
+    file: &'static str,
+    texts: OnceLock<SectionTexts>,
+}
+
+#[derive(Debug)]
+struct SectionTexts {
     lines: Vec<Line>,
-    /// Positions in `lines`, by section and key.
-    places: BTreeMap<(&'static str, &'static str), usize>,
+    /// Positions in `lines`, by key.
+    places: BTreeMap<&'static str, usize>,
 }
 
 impl Texts {
     /// Reads the texts of a file: a section is `[name]`, a text `key = text`; a line that begins with a space continues the
     /// text before it, and one that begins with `#` is a comment.
     pub fn read(file: &'static str) -> Self {
-        let (mut lines, mut section): (Vec<Line>, _) = (Vec::new(), "");
-        for line in file.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#')) {
-            if let Some(name) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
-                section = name;
-            } else if line.starts_with(' ')
-                && let Some(last) = lines.last_mut()
+        let (mut sections, mut name, mut start) = (Vec::new(), "", 0);
+        let mut section = |name, file| sections.push(Section { name, file, texts: OnceLock::new() });
+        for at in memchr::memchr_iter(b'[', file.as_bytes()) {
+            let header = file[at..].lines().next().unwrap_or_default();
+            if let Some(next) = header.strip_prefix('[').and_then(|line| line.strip_suffix(']'))
+                && (at == 0 || file[..at].ends_with('\n'))
             {
-                last.text.push(' ');
-                last.text.push_str(line.trim());
-            } else {
-                let (key, text) = line.split_once('=').unwrap_or((line, ""));
-                lines.push(Line { section, key: key.trim(), text: text.trim().to_owned() });
+                section(name, &file[start..at]);
+                (name, start) = (next, at + header.len());
             }
         }
-        let places = lines.iter().enumerate().map(|(at, line)| ((line.section, line.key), at)).collect();
-        Self { lines, places }
+        section(name, &file[start..]);
+        Self { sections }
     }
 
     fn get(&self, section: &str, key: &str) -> Option<&str> {
-        self.places.get(&(section, key)).map(|at| &*self.lines[*at].text)
+        // What is there twice is reported by a test; the last one counts.
+        let mut sections = self.sections.iter().rev().filter(|one| one.name == section);
+        sections.find_map(|section| section.texts().get(key))
+    }
+}
+
+impl Section {
+    fn texts(&self) -> &SectionTexts {
+        self.texts.get_or_init(|| {
+            let mut lines: Vec<Line> = Vec::new();
+            for line in self.file.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#')) {
+                if line.starts_with(' ')
+                    && let Some(last) = lines.last_mut()
+                {
+                    last.text.push(' ');
+                    last.text.push_str(line.trim());
+                } else {
+                    let (key, text) = line.split_once('=').unwrap_or((line, ""));
+                    lines.push(Line { section: self.name, key: key.trim(), text: text.trim().to_owned() });
+                }
+            }
+            let places = lines.iter().enumerate().map(|(at, line)| (line.key, at)).collect();
+            SectionTexts { lines, places }
+        })
+    }
+}
+
+impl SectionTexts {
+    fn get(&self, key: &str) -> Option<&str> {
+        self.places.get(key).map(|at| &*self.lines[*at].text)
     }
 }
 

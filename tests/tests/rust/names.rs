@@ -391,3 +391,27 @@ fn a_keyword_among_special_values_leaves_no_underscore_in_the_name_of_their_type
         assert!(module.contains(&format!("pub enum {name} ")), "{name}");
     }
 }
+
+/// A type of many special values has the name of the first entry that has them: each use of a value repeats it.
+#[test]
+fn many_special_values_take_as_much_code_as_they_are() {
+    let code = |count: usize| {
+        let values = |first: usize| {
+            let values = (0..count).map(|at| format!("{}: \"value {at}\"", first + at));
+            values.collect::<Vec<_>>().join(", ")
+        };
+        let text = format!(
+            "objects:\n  0x2000: {{name: level, type: unsigned16, access: rw, special: {{{}}}}}\n  \
+             0x2001: {{name: other level, type: unsigned16, access: rw, special: {{{}}}}}\n  \
+             0x2002: {{name: few, type: unsigned16, access: rw, special: {{0: \"off\"}}}}\n",
+            values(0),
+            values(7)
+        );
+        let module = modules("special", &of_one_device(&text)).unwrap().remove(0).1;
+        assert_eq!(module.matches("pub enum LevelSpecialValues").count(), 1);
+        assert!(module.contains("specials :: Off") && !module.contains("OtherLevelSpecialValues"));
+        module.len()
+    };
+    let (one, two, four) = (code(100), code(200), code(400));
+    assert!(four - two < 3 * (two - one), "{one}, {two} and {four} bytes");
+}

@@ -71,7 +71,7 @@ fn a_build_says_one_line_about_an_eds() {
     let shown = path.display();
     assert_eq!(warnings, [format!("{shown}: 1 error, 5 warnings; `odgen check {shown}` shows them")]);
     assert_eq!((read, errors), (vec![path.clone()], Vec::new()));
-    let written = Builder::new(&path).unformatted().out_dir(&scratch.0).try_generate().unwrap();
+    let written = Builder::new(&path).out_dir(&scratch.0).try_generate().unwrap();
     assert_eq!(written, [scratch.0.join("mixer.rs")]);
     assert!(fs::read_to_string(&written[0]).unwrap().contains(&tokens.unwrap().to_string()));
 }
