@@ -8,6 +8,7 @@ use crate::diag::{Code, Diagnostic, Diagnostics, Edit, Severity};
 use crate::eds::check::BYTE_ORDER_MARK;
 use crate::encoding::{self, Encoding, encode};
 use crate::files::decode;
+use crate::order::Arrange as _;
 use crate::source::{FileId, SourceMap};
 
 /// Most rounds of changes: each may make room for others, such as the first entry of a list that was missing.
@@ -83,7 +84,7 @@ pub fn fix(name: &str, bytes: &[u8]) -> Result<Fixed, Box<Diagnostic>> {
     if fixed.text().is_ascii() && fixed.encoding != Encoding::Ascii {
         let mark = fixed.left.iter().find(|one| one.code == BYTE_ORDER_MARK);
         fixed.changes.extend(mark.map(|one| Change { place: 0..0, code: one.code }));
-        fixed.changes.sort_by_key(|change| (change.place.start, change.code));
+        fixed.changes.arrange_by_key(|change| (change.place.start, change.code));
         fixed.encoding = Encoding::Ascii;
         let text = fixed.text().to_owned();
         fixed.sources = SourceMap::new();
@@ -161,7 +162,7 @@ fn choose(fixed: &Fixed) -> Vec<Chosen<'_>> {
             }
         }
     }
-    chosen.sort_by_key(|chosen| (chosen.edit.span.start, chosen.edit.span.end));
+    chosen.arrange_by_key(|chosen| (chosen.edit.span.start, chosen.edit.span.end));
     chosen
 }
 
@@ -233,7 +234,7 @@ fn moved(earlier: &[Change], chosen: &[Chosen<'_>]) -> Vec<Change> {
         .zip(&starts)
         .map(|(one, start)| Change { place: *start..start + one.edit.text.len(), code: one.code });
     let mut changes: Vec<Change> = earlier.chain(now).collect();
-    changes.sort_by_key(|change| (change.place.start, change.code));
+    changes.arrange_by_key(|change| (change.place.start, change.code));
     changes
 }
 

@@ -59,6 +59,7 @@ pub mod model;
 pub mod names;
 mod node_of_file;
 mod notation;
+pub mod order;
 mod other_bus;
 mod parameters;
 mod parts;

@@ -2,10 +2,12 @@
 """Count the instructions that odgen takes: the same in every run, whatever else the machine does.
 
     instructions.py [--odgen FILE ...] [--growth] [--numbers 300 600 1200] [--only TEXT]
+    instructions.py --odgen FILE --held-to tests/bench/instructions.tsv [--write]
 
 Needs valgrind (its tool callgrind counts). Several programs are counted side by side, such as one from before a change. With
 --growth it takes specifications that hold something many times (`cargo run -p od-tests --bin patterns`), at three sizes, and
-the exit code is 1 where the work grows faster than the size.
+the exit code is 1 where the work grows faster than the size. With --held-to it runs eight commands on small files, and the exit
+code is 1 where one takes 5 % more than the table says; --write writes the table.
 """
 
 from __future__ import annotations
@@ -27,6 +29,19 @@ PITCH = ROOT / "od-spec" / "devices" / "pitch-control-system.od.yaml"
 COLLECTED = re.compile(r"Collected : (\d+)")
 # Sorted maps cost a little more for each of many; a square would be 4.
 MOST = 2.3
+# Eight commands on a small device, each with the files that the ones before it made.
+COMMANDS = {
+    "check": ["check", "{spec}"],
+    "build": ["build", "{spec}", "--out", "{out}"],
+    "DCF": ["dcf", "{spec}", "--node", "5", "--out", "{out}-dcf"],
+    "dump": ["dump", "{spec}"],
+    "format": ["fmt", "--check", "{spec}"],
+    "documents": ["docs", "{spec}", "--out", "{out}-docs"],
+    "check of an EDS": ["check", "{eds}"],
+    "check of mistakes": ["check", "{wrong}"],
+}
+# So many times as many instructions as the table says are too many.
+MOST_OF_TABLE = 1.05
 # Below, the growth says nothing: it is lost in what every run does.
 LEAST = 3_000_000
 
@@ -37,6 +52,8 @@ def main() -> int:
     parser.add_argument("--growth", action="store_true", help="how the work grows, instead of how much it is")
     parser.add_argument("--numbers", type=int, nargs=3, default=[300, 600, 1200])
     parser.add_argument("--only", default="", help="patterns with this in their names")
+    parser.add_argument("--held-to", type=Path, metavar="TABLE", help="compare eight commands with a table")
+    parser.add_argument("--write", action="store_true", help="write the table instead")
     options = parser.parse_args()
     if not shutil.which("valgrind"):
         print("error: valgrind is missing", file=sys.stderr)
@@ -44,7 +61,39 @@ def main() -> int:
     programs = [path.resolve() for path in options.odgen or [built()]]
     with tempfile.TemporaryDirectory(prefix="odgen-instructions-") as folder:
         work = Path(folder)
+        if options.held_to:
+            return held(programs[0], work, options)
         return growth(programs[0], work, options) if options.growth else amounts(programs, work)
+
+
+def held(program: Path, work: Path, options: argparse.Namespace) -> int:
+    spec = work / "lamp.od.yaml"
+    spec.write_text(synthetic.specification(10), encoding="utf-8")
+    wrong = work / "wrong.od.yaml"
+    wrong.write_text(spec.read_text(encoding="utf-8").replace("access: rw", "acces: rw"), encoding="utf-8")
+    out = work / "out"
+    table = {}
+    if not options.write:
+        rows = options.held_to.read_text(encoding="utf-8").splitlines()
+        table = {name: int(number) for name, number in (row.split("\t") for row in rows if not row.startswith("#"))}
+    failures, counted = 0, {}
+    for name, words in COMMANDS.items():
+        eds = next(iter(sorted(out.rglob("*.eds"))), out)
+        places = {"spec": spec, "wrong": wrong, "eds": eds, "out": out}
+        counted[name] = count([str(program), *(word.format(**places) for word in words)])
+        if name not in table:
+            continue
+        ratio = counted[name] / table[name]
+        is_more = ratio > MOST_OF_TABLE
+        failures += is_more
+        print(f"{name}: {counted[name] / 1e6:.1f} M, {ratio:.3f} of the table{'  TOO MANY' if is_more else ''}", flush=True)
+    if options.write:
+        rows = [f"{name}\t{number}" for name, number in counted.items()]
+        head = "# Instructions of `cargo xtask test instructions`, in the profile `dev` without incremental compilation."
+        options.held_to.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
+    elif failures:
+        print("Find out why (callgrind_annotate), or write the table with --write and say in the commit what the work is for.")
+    return 1 if failures or (not options.write and set(table) != set(counted)) else 0
 
 
 def built() -> Path:

@@ -2,7 +2,7 @@
 //
 //   node questions.mjs DOCS CHROMIUM AMOUNT
 //
-// AMOUNT is `all` or `sample`: then each third question and each third link has its turn at one of the widths.
+// AMOUNT is `all` or `sample`: then each sixth question and each sixth link has its turn at one of the widths.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join, resolve } from "node:path";
@@ -19,8 +19,8 @@ const NEAR = 8;
 const LATE = 30;
 // What has its turn at a width.
 const turns = (list, width) => list.filter((_, at) => WIDTHS[at % WIDTHS.length] === width);
-const thirds = (list) => (isSample ? list.filter((_, at) => at % 3 === 1) : list);
-const some = (list, width) => (isSample ? turns(thirds(list), width) : list);
+const sixths = (list) => (isSample ? list.filter((_, at) => at % 6 === 1) : list);
+const some = (list, width) => (isSample ? turns(sixths(list), width) : list);
 // Copies of pages that do something late or in small pieces.
 const copies = mkdtempSync(join(tmpdir(), "od-pages-"));
 const copyOf = (name, change) => {
@@ -76,7 +76,7 @@ for (const [name, { questions, links }] of Object.entries(table)) {
   // The widths at the same time: most of the time a page does not change, and that is waited for.
   await Promise.all(WIDTHS.map(async (width) => {
     const page = await open(address, width);
-    const mine = turns(thirds(questions), width);
+    const mine = turns(sixths(questions), width);
     for (const one of some(questions, width)) {
       const [question, expected] = one, place = `${name} at ${width} px: ${question}`;
       await page.fill("#ui_search", question);
@@ -132,7 +132,7 @@ for (const [name, { questions, links }] of Object.entries(table)) {
 const FIRST_OF = isSample ? 16 : 4;
 for (const [name, { sentences = [], near = [] }] of Object.entries(table)) {
   const page = await open(pathToFileURL(join(docs, name)).href, 1400);
-  for (const [at, [question, expected, most]] of thirds([...sentences.map((one) => [...one, 0]), ...near.map((one) => [...one, 2])]).entries()) {
+  for (const [at, [question, expected, most]] of sixths([...sentences.map((one) => [...one, 0]), ...near.map((one) => [...one, 2])]).entries()) {
     await page.fill("#ui_search", question);
     await answered(page);
     const found = await page.$$eval("#ui_results:not(.off) ol a", (links) => links.slice(0, 3).map((link) => decodeURIComponent(link.getAttribute("href"))));
@@ -172,7 +172,7 @@ await Promise.all(Object.entries(table).map(async ([name, { questions, links }])
   const address = pathToFileURL(join(docs, name)).href, page = await late.newPage();
   page.on("pageerror", (error) => fail(`${name}, late: ${error.message}`));
   await page.setViewportSize({ width: 1400, height: 900 });
-  for (const id of thirds(links)) {
+  for (const id of sixths(links)) {
     await page.goto("about:blank");
     await page.goto(`${address}#${id}`);
     // Until nothing more is folded.

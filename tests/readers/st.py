@@ -36,7 +36,7 @@ NODE = 5
 LIMIT = 40  # differences that are shown
 LEAST_CHECKS, LEAST_FAULTS = 2000, 4  # of a device; with fewer, something was left out
 LONGEST = 120
-SAMPLE = 18  # with `--sample`, one of so many groups of constants and of faults
+SAMPLE = 12  # with `--sample`, one of so many groups of constants and of faults
 # Where an item of a file ends; a list of constants is one.
 LIST = "VAR_GLOBAL CONSTANT\n"
 END = re.compile(r"(?<=^END_FUNCTION\n)|(?<=^END_FUNCTION_BLOCK\n)|(?<=^END_TYPE\n)", re.MULTILINE)

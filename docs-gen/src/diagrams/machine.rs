@@ -5,6 +5,7 @@
 //! state, from there alone, is an arrow between the two.
 
 use od_spec::model::{StateMachine, Transition};
+use od_spec::order::Arrange as _;
 
 use crate::view::{MachineLine, MachinePicture, MachineState, Target};
 
@@ -128,7 +129,7 @@ fn ways(machine: &StateMachine) -> Vec<Way<'_>> {
     }
     let mut shortest_first: Vec<usize> =
         (0..ways.len()).filter(|at| ways[*at].side != Side::Between).collect();
-    shortest_first.sort_by_key(|at| {
+    shortest_first.arrange_by_key(|at| {
         let (first, last) = ways[*at].span();
         (last - first, first, ways[*at].transition.number)
     });
@@ -157,7 +158,7 @@ fn ways(machine: &StateMachine) -> Vec<Way<'_>> {
 fn ends_at<'w, 'm>(ways: &'w [Way<'m>], state: usize, side: Side) -> Vec<&'w Way<'m>> {
     let mut here: Vec<&Way<'_>> =
         ways.iter().filter(|way| way.side == side && way.ends().contains(&state)).collect();
-    here.sort_by_key(|way| {
+    here.arrange_by_key(|way| {
         let goes_up = way.span().0 < state;
         let lane = i64::from(way.lane);
         (!goes_up, if goes_up { lane } else { -lane }, way.transition.number)

@@ -17,6 +17,7 @@ use od_spec::model::{
     BitErrors, BitField, Departure, Devices, Dictionary, Document, Entry, EntryId, Erratum, ErratumPlace,
     Fact, Index, Object, Part, Storage, System, SystemSource, TableContent, TableId, Text, TypeKind, Unit,
 };
+use od_spec::order::Arrange as _;
 use od_spec::running_text::{Written, indices};
 use od_spec::wording::{self, Wording, filled};
 
@@ -94,7 +95,7 @@ fn standard_names(devices: &[&Dictionary]) -> BTreeMap<Index, String> {
 
 /// A text with links in place of the parts that they represent. In another language where one is named.
 fn with_links(text: &str, language: &str, mut links: Vec<(Range<usize>, Cell)>) -> Cell {
-    links.sort_by_key(|(range, _)| range.start);
+    links.arrange_by_key(|(range, _)| range.start);
     let (mut cell, mut start) = (Cell::default(), 0);
     for (range, link) in links {
         cell = cell.in_language(&text[start..range.start], language).and(link.all_in_language(language));

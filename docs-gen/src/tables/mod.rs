@@ -17,6 +17,7 @@ pub(crate) mod variants;
 use od_spec::model::{
     BitTable, Constraint, Content, Dictionary, Index, LadderTable, NamedType, TableContent, TableId, TypeKind,
 };
+use od_spec::order::Arrange as _;
 
 use crate::language::Word;
 use crate::source::Source;
@@ -133,7 +134,7 @@ impl Table {
 fn in_order<T: Clone>(list: &[T], order: &[i128], number: impl Fn(&T) -> i128) -> Vec<T> {
     let place = |one: &T| order.iter().position(|at| *at == number(one));
     let mut list = list.to_vec();
-    list.sort_by_key(place);
+    list.arrange_by_key(place);
     list
 }
 

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use od_spec::model::{EntryId, Fact, Index, SubIndex};
+use od_spec::order::Arrange as _;
 
 /// What a change does to those who use the old dictionary; by ascending weight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -258,7 +259,7 @@ impl Change {
     /// Adds consequences, each once.
     pub(super) fn follows(&mut self, consequences: impl IntoIterator<Item = Consequence>) {
         self.consequences.extend(consequences);
-        self.consequences.sort_by(|one, other| other.cmp(one));
+        self.consequences.arrange_by(|one, other| other.cmp(one));
         self.consequences.dedup();
     }
 
@@ -313,7 +314,7 @@ pub(super) fn tidy(mut changes: Vec<Change>) -> Vec<Change> {
             change.consequences.retain(|consequence| consequence.class != Class::Documents);
         }
     }
-    changes.sort_by(|one, other| one.order().cmp(&other.order()));
+    changes.arrange_by(|one, other| one.order().cmp(&other.order()));
     changes.dedup();
     join(changes)
 }

@@ -1,6 +1,7 @@
 //! Which lines of a document can be folded away: by indentation, so that a broken text folds, too.
 
 use lsp_types::{FoldingRange, FoldingRangeKind};
+use od_spec::order::Arrange as _;
 
 use super::analysis::Kind;
 use super::snapshot::Snapshot;
@@ -50,7 +51,7 @@ fn by_depth(lines: &[&str]) -> Vec<FoldingRange> {
         last = number;
     }
     close(&mut open, 0, last);
-    ranges.sort_by_key(|range| (range.start_line, range.end_line));
+    ranges.arrange_by_key(|range| (range.start_line, range.end_line));
     ranges
 }
 
@@ -68,7 +69,7 @@ fn of_sections(lines: &[&str]) -> Vec<FoldingRange> {
         }
     }
     ranges.extend(start.and_then(|start| range(start, last, None)));
-    ranges.sort_by_key(|range| (range.start_line, range.end_line));
+    ranges.arrange_by_key(|range| (range.start_line, range.end_line));
     ranges
 }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use lsp_types::{InlayHint, InlayHintLabel, InlayHintTooltip, Position, Range};
 use od_spec::model::{Direction, Pdo, System, Value};
+use od_spec::order::Arrange as _;
 use od_spec::scalar;
 use od_spec::source::{Span, Spanned};
 use od_spec::yaml::Node;
@@ -68,7 +69,7 @@ pub(super) fn hints(snapshot: &Snapshot, range: Range, wanted: &BTreeSet<Hint>) 
         hints.extend(of_pdos(snapshot, system, wanted));
     }
     hints.retain(|hint| range.start <= hint.position && hint.position <= range.end);
-    hints.sort_by_key(|hint| hint.position);
+    hints.arrange_by_key(|hint| hint.position);
     hints
 }
 

@@ -3,6 +3,8 @@
 //! `firmware_glue::table::Directory` states how it is searched. Both have to agree on every number here: a change of
 //! one of them makes a new layout.
 
+use od_spec::order::Arrange as _;
+
 /// Indices of a block.
 const SIZE: u16 = 32;
 
@@ -99,7 +101,7 @@ fn seeds(blocks: &[Block], places: usize) -> Option<Vec<u8>> {
             bucket.push(hash);
         }
     }
-    buckets.sort_by_key(|(_, hashes)| std::cmp::Reverse(hashes.len()));
+    buckets.arrange_by_key(|(_, hashes)| std::cmp::Reverse(hashes.len()));
     let (mut taken, mut seeds) = (vec![false; places], vec![0; count]);
     for (bucket, hashes) in buckets {
         let chosen = (0..=u8::MAX).find(|seed| take(&mut taken, &hashes, *seed))?;

@@ -6,6 +6,7 @@ use od_spec::diag::{Diagnostic, Diagnostics, codes};
 use od_spec::model::{
     Access, DataType, Dictionary, Entry, EntryId, Family, Object, Role, Storage, SubIndex, Value,
 };
+use od_spec::order::Arrange as _;
 
 /// The image is made for the node 0; a node adds its node-ID when it starts.
 const NO_NODE: u8 = 0;
@@ -102,7 +103,7 @@ pub fn lay_out(device: &Dictionary, diagnostics: &mut Diagnostics) -> Layout {
         };
         layout.places.insert(id, Placed { place, size });
     }
-    variables.sort_by_key(|variable| {
+    variables.arrange_by_key(|variable| {
         let Variable { id, entry, .. } = variable;
         (rank(entry.stored), std::cmp::Reverse(align(entry.data_type)), *id)
     });

@@ -61,6 +61,7 @@ use std::sync::LazyLock;
 
 use crate::diag::Diagnostics;
 use crate::model::{Dictionary, System};
+use crate::order::Arrange as _;
 use crate::source::Span;
 
 use allowed::Allowed;
@@ -89,7 +90,7 @@ pub(crate) static RULES: LazyLock<Vec<&'static Rule>> = LazyLock::new(|| {
         errors::RULES,
     ];
     let mut rules: Vec<&Rule> = areas.into_iter().flatten().collect();
-    rules.sort_by_key(|rule| rule.code);
+    rules.arrange_by_key(|rule| rule.code);
     rules
 });
 

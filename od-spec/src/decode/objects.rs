@@ -12,6 +12,7 @@ use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::keys;
 use crate::limits::{ENTRIES_OF_FILE, Room};
 use crate::model::{Index, Outside, Rounding, SubIndex};
+use crate::order::Arrange as _;
 use crate::source::{Span, Spanned};
 use crate::yaml::{Node, NodeKind};
 
@@ -289,6 +290,6 @@ fn members<'a>(
             members.push((Spanned::new(sub, key.span), copy));
         }
     }
-    members.sort_by_key(|(sub, _)| sub.value);
+    members.arrange_by_key(|(sub, _)| sub.value);
     members
 }

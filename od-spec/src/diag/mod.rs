@@ -20,6 +20,7 @@ pub(crate) use repeated::Repeated;
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::order::Arrange as _;
 use crate::source::Span;
 use crate::visible::{is_hidden, visible};
 use edit::stands_without_quotes;
@@ -341,7 +342,7 @@ impl Diagnostics {
 
     /// Sorts by file, place and code, and drops repetitions.
     pub fn sort(&mut self) {
-        self.list.sort_by(|a, b| {
+        self.list.arrange_by(|a, b| {
             let key =
                 |d: &Diagnostic| (d.labels.first().map(|label| (label.span.file, label.span.start)), d.code);
             key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))

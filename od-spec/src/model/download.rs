@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use super::{Course, Dictionary, EntryId, Index, Pdo, Stuck, SubIndex, System, Value};
+use crate::order::Arrange as _;
 
 /// One SDO download.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -155,7 +156,7 @@ impl Order<'_> {
         };
         let rank: BTreeMap<EntryId, usize> = ordered.into_iter().zip(0..).collect();
         let mut writes: Vec<((Phase, EntryId), Vec<u8>)> = self.writes.into_iter().collect();
-        writes.sort_by_key(|((phase, id), _)| {
+        writes.arrange_by_key(|((phase, id), _)| {
             let at = if *phase == Phase::Set { rank.get(id).copied() } else { None };
             (*phase, at, *id)
         });

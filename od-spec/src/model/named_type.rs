@@ -3,6 +3,7 @@
 use std::ops::Deref;
 
 use super::{DataType, Phrases, Statement, Text};
+use crate::order::Arrange as _;
 use crate::source::Spanned;
 
 /// An enum or a bit field with a name.
@@ -55,9 +56,9 @@ impl EnumValues {
 
 impl From<Vec<EnumValue>> for EnumValues {
     fn from(mut ascending: Vec<EnumValue>) -> Self {
-        ascending.sort_by_key(|value| value.value);
+        ascending.arrange_by_key(|value| value.value);
         let mut by_name: Vec<usize> = (0..ascending.len()).collect();
-        by_name.sort_by_key(|at| ascending.get(*at).map(|value| value.name.as_str()));
+        by_name.arrange_by_key(|at| ascending.get(*at).map(|value| value.name.as_str()));
         Self { ascending, by_name }
     }
 }

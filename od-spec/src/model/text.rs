@@ -1,5 +1,7 @@
 //! Texts for people, in several languages.
 
+use crate::order::Arrange as _;
+
 /// A text in the languages that the specification has.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Text {
@@ -14,7 +16,7 @@ impl Text {
     pub fn new<'a>(texts: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
         let mut by_language: Vec<(Box<str>, Box<str>)> =
             texts.into_iter().map(|(language, text)| (language.into(), text.into())).collect();
-        by_language.sort_by(|(one, _), (other, _)| one.cmp(other));
+        by_language.arrange_by(|(one, _), (other, _)| one.cmp(other));
         by_language.dedup_by(|(later, _), (first, _)| later == first);
         Self { by_language, gap: None }
     }

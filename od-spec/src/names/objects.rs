@@ -3,6 +3,7 @@
 use super::DefinitionId;
 use crate::expr::PLACEHOLDER;
 use crate::model::{EntryId, Index, SubIndex};
+use crate::order::Arrange as _;
 use crate::source::FileId;
 
 /// What a file says of an object or a run of objects.
@@ -103,7 +104,7 @@ impl<'t> Objects<'t> {
 
     /// Puts the descriptions in the order of their indices.
     pub(super) fn sort(&mut self) {
-        self.described.sort_by_key(|one| one.first);
+        self.described.arrange_by_key(|one| one.first);
     }
 
     /// What describes an index.

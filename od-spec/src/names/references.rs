@@ -12,6 +12,7 @@ use crate::eds::file_name;
 use crate::expr::Expr;
 use crate::keys::{COMMAND, KeyKind, NameOf, PART, SIGNAL, SPEC, Shape};
 use crate::model::{DataType, EntryId, SubIndex, System};
+use crate::order::Arrange as _;
 use crate::source::{FileId, SourceMap, Spanned};
 use crate::yaml::Node;
 
@@ -32,7 +33,7 @@ pub(super) fn collect<'t>(
         walk(tree, if keys.name == PART.name && !file.is_one_with(root) { &SPEC } else { keys }, &mut all);
     }
     let mut found = all.into_found();
-    found.sort_by_key(|one| (one.span, one.range.start));
+    found.arrange_by_key(|one| (one.span, one.range.start));
     found
 }
 

@@ -8,6 +8,7 @@ use crate::ast::plant::{LevelDecl, MachineDecl, MachineKey, NodeDecl, PlantDecl,
 use crate::commissioning::TextOfNode;
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::limits::NODES_OF_PLANT;
+use crate::order::Arrange as _;
 use crate::parameters::Layer;
 use crate::source::Spanned;
 
@@ -174,7 +175,7 @@ fn machines(site: &SiteDecl, diagnostics: &mut Diagnostics) -> Vec<(String, Vec<
     refuse_crossing(site, &runs, diagnostics);
     warn_beside(site, diagnostics);
     // The larger run first; of two that are as large, none has a machine of the other.
-    runs.sort_by_key(|(first, last, at)| (std::cmp::Reverse(last - first), *first, *at));
+    runs.arrange_by_key(|(first, last, at)| (std::cmp::Reverse(last - first), *first, *at));
     let mut numbered: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     let mut room = NODES_OF_PLANT + 1;
     for (first, last, at) in runs {
@@ -196,7 +197,7 @@ fn machines(site: &SiteDecl, diagnostics: &mut Diagnostics) -> Vec<(String, Vec<
 /// Runs lie in each other, or apart.
 fn refuse_crossing(site: &SiteDecl, runs: &[(u32, u32, usize)], diagnostics: &mut Diagnostics) {
     let mut sorted = runs.to_vec();
-    sorted.sort_by_key(|(first, last, at)| (*first, std::cmp::Reverse(*last), *at));
+    sorted.arrange_by_key(|(first, last, at)| (*first, std::cmp::Reverse(*last), *at));
     // The runs that are open where the next one begins, the innermost last.
     let mut open: Vec<(u32, u32, usize)> = Vec::new();
     for (first, last, at) in sorted {

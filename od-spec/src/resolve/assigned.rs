@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::refs::Broken;
 use crate::ast::{ObjectDecl, Spec};
+use crate::order::Arrange as _;
 
 /// The objects that a specification declares, by device.
 pub(super) struct Assigned<'a> {
@@ -44,7 +45,7 @@ impl<'a> Assigned<'a> {
         let mut all = self.common.clone();
         if let Some(own) = self.own.get(device) {
             all.extend(own);
-            all.sort_unstable_by_key(|(at, _)| *at);
+            all.arrange_by_key(|(at, _)| *at);
         }
         all.into_iter().map(|(_, decl)| decl).collect()
     }

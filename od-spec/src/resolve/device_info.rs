@@ -8,6 +8,7 @@ use crate::diag::{Diagnostics, codes};
 use crate::model::{
     AnyError, DataType, Date, DateTime, DeviceInfo, DynamicChannel, Fact, Facts, FileInfo, Statement, Vendor,
 };
+use crate::order::Arrange as _;
 use crate::source::{Span, Spanned};
 
 /// An EDS must have dates; a specification without them gets a fixed one, so that output never depends on the day.
@@ -63,7 +64,7 @@ pub(super) fn info(device: &DeviceDecl, diagnostics: &mut Diagnostics) -> Device
             }
         }
     }
-    dummies.sort_by_key(|data_type| data_type.code());
+    dummies.arrange_by_key(|data_type| data_type.code());
     dummies.dedup();
     DeviceInfo {
         order_code: text(&device.order_code).unwrap_or_else(|| product_name.clone()),

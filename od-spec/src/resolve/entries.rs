@@ -15,6 +15,7 @@ use crate::model::{
     Access, AccessRight, BitErrors, DataType, EdsPolicy, Entry, EntryId, Expr, Fact, Family, NamedType,
     PdoMapping, RealLimits, SpecialValue, Storage, SubIndex, TypeKind, Value,
 };
+use crate::order::Arrange as _;
 use crate::source::Spanned;
 
 /// Resolves an entry; `None` when it is too broken to mean anything.
@@ -235,7 +236,7 @@ fn special_values(
             values.push(SpecialValue { value: decl.value.value, name: name.value.clone(), about, place });
         }
     }
-    values.sort_by_key(|special| special.value);
+    values.arrange_by_key(|special| special.value);
     values
 }
 
@@ -307,7 +308,7 @@ fn bit_errors(
         let codes = decl.codes.iter().map(|code| code.map(super::numbers::to_u16)).collect();
         errors.push(BitErrors { bit: first, codes });
     }
-    errors.sort_by_key(|errors: &BitErrors| errors.bit);
+    errors.arrange_by_key(|errors: &BitErrors| errors.bit);
     errors
 }
 

@@ -17,6 +17,7 @@ use crate::limits::STATES;
 use crate::model::{
     BitPattern, ByDevice, Command, Devices, Dictionary, EntryId, State, StateMachine, Transition,
 };
+use crate::order::Arrange as _;
 use crate::source::{Span, Spanned};
 
 pub(super) fn resolve(
@@ -240,7 +241,7 @@ fn transitions(decl: &MachineDecl, diagnostics: &mut Diagnostics) -> Vec<Transit
             span: one.number.span,
         });
     }
-    transitions.sort_by_key(|transition| transition.number);
+    transitions.arrange_by_key(|transition| transition.number);
     transitions
 }
 

@@ -18,6 +18,7 @@ use crate::model::{
     DataType, DeviceInfo, Direction, EntryId, Fact, Index, Mapped, Object, Pdo, PdoTarget, SubIndex, Value,
     usual_pdo_storage,
 };
+use crate::order::Arrange as _;
 use crate::source::{Span, Spanned};
 
 /// Resolves the PDOs of a device and adds their parameter objects. A PDO whose parameter objects are written in full follows from
@@ -70,7 +71,7 @@ pub(super) fn resolve(
         }
     }
     pdos.extend(objects.values().filter_map(|object| Pdo::of_objects(object, objects)));
-    pdos.sort_by_key(|pdo| (pdo.direction, pdo.number));
+    pdos.arrange_by_key(|pdo| (pdo.direction, pdo.number));
     objects.extend(parameters.into_iter().map(|object| (object.index, object)));
     pdos
 }

@@ -10,6 +10,7 @@ use crate::check::codes as rule_codes;
 use crate::decode::lexical;
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
 use crate::model::{Devices, Dictionary, EntryId, Index, Object, SubIndex};
+use crate::order::Arrange as _;
 use crate::source::{Span, Spanned};
 
 /// What is defined, but not well enough to be there: a reference to it says nothing new.
@@ -180,7 +181,7 @@ impl<'a> Names<'a> {
             std::iter::once(object.name.as_str()).chain(identifier).map(move |text| (text, object))
         };
         let mut objects: Vec<(&str, &Object)> = objects.into_iter().flat_map(texts).collect();
-        objects.sort_by_key(|(text, _)| *text);
+        objects.arrange_by_key(|(text, _)| *text);
         Self { objects, all: OnceCell::new(), indices: OnceCell::new() }
     }
 

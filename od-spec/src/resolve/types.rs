@@ -10,6 +10,7 @@ use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::{
     BitField, DataType, EnumValue, ModeMeaning, NamedType, Phrases, Statement, Text, TypeKind,
 };
+use crate::order::Arrange as _;
 use crate::source::{FileId, Span, Spanned};
 
 /// Resolves a type; `None` when it is too broken to be used.
@@ -104,7 +105,7 @@ fn values(
             place: Spanned::new((), name.span),
         });
     }
-    values.sort_by_key(|value| value.value);
+    values.arrange_by_key(|value| value.value);
     values
 }
 
@@ -167,7 +168,7 @@ fn bits(
         fields.push(field(bit, diagnostics));
     }
     fill(decl, &owner, &mut fields, diagnostics);
-    fields.sort_by_key(|field| field.first);
+    fields.arrange_by_key(|field| field.first);
     Some(fields)
 }
 

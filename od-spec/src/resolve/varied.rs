@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::ast::{ObjectDecl, Spec};
 use crate::diag::{Diagnostic, Diagnostics, codes};
 use crate::model::Index;
+use crate::order::Arrange as _;
 use crate::source::Span;
 
 /// The objects of the indices that have several.
@@ -15,7 +16,7 @@ pub(super) struct Varied<'a> {
 impl<'a> Varied<'a> {
     pub(super) fn of(root: &'a Spec) -> Self {
         let mut sorted: Vec<&ObjectDecl> = root.objects.iter().collect();
-        sorted.sort_by_key(|decl| decl.index.value);
+        sorted.arrange_by_key(|decl| decl.index.value);
         let several =
             sorted.chunk_by(|one, next| one.index.value == next.index.value).filter(|decls| decls.len() > 1);
         Self { by_index: several.map(|decls| (decls[0].index.value, decls.to_vec())).collect() }

@@ -14,6 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use granit_parser::{Event, Parser, ScalarStyle};
 
 use crate::diag::{Diagnostic, Diagnostics, codes, shorten};
+use crate::order::Arrange as _;
 use crate::source::{FileId, SourceFile, Span, Spanned};
 use crate::visible::turning;
 
@@ -529,7 +530,7 @@ fn read_key(node: Node, entries: &[(Spanned<String>, Node)], diagnostics: &mut D
 fn refuse_equal_keys(entries: &mut Vec<(Spanned<String>, Node)>, diagnostics: &mut Diagnostics) {
     let mut order: Vec<usize> = (0..entries.len()).collect();
     // Of equal keys, the first in the text stays the first.
-    order.sort_by(|one, other| entries[*one].0.value.cmp(&entries[*other].0.value));
+    order.arrange_by(|one, other| entries[*one].0.value.cmp(&entries[*other].0.value));
     let mut again = BTreeSet::new();
     for equal in order.chunk_by(|one, other| entries[*one].0 == entries[*other].0) {
         let first = &entries[equal[0]].0;

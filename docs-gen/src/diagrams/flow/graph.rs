@@ -1,6 +1,7 @@
 //! Blocks and arrows of a block diagram in layers: the order of each layer and where its places begin, with few crossings and short ways.
 
 use crate::diagrams::label::DrawnLine;
+use od_spec::order::Arrange as _;
 
 /// Around everything.
 pub(crate) const MARGIN: i64 = 6;
@@ -99,7 +100,7 @@ impl Graph {
             }
         }
         let mut all: Vec<usize> = (0..graph.items.len()).collect();
-        all.sort_by_key(|item| graph.items[*item].block);
+        all.arrange_by_key(|item| graph.items[*item].block);
         for item in all {
             graph.layers[graph.items[item].layer].push(item);
         }
@@ -159,7 +160,7 @@ impl Graph {
                     sum.checked_div(neighbours.len()).unwrap_or(positions[item] * 1000)
                 };
                 let mut ordered = self.layers[layer].clone();
-                ordered.sort_by_key(|item| mean(*item));
+                ordered.arrange_by_key(|item| mean(*item));
                 self.layers[layer] = ordered;
             }
             let crossings = self.crossings();
@@ -173,7 +174,7 @@ impl Graph {
     /// The links that end at an item, in the order of their places there.
     fn links_to(&self, item: usize, positions: &[usize]) -> Vec<usize> {
         let mut here: Vec<usize> = (0..self.links.len()).filter(|at| self.links[*at].to == item).collect();
-        here.sort_by_key(|at| positions[self.links[*at].from]);
+        here.arrange_by_key(|at| positions[self.links[*at].from]);
         here
     }
 

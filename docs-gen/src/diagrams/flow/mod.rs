@@ -12,6 +12,7 @@ use crate::diagrams::flow::graph::{DrawnBlock, Graph, MARGIN};
 use crate::diagrams::label::{ASCENT, LINE, Lines, height_of, label, length, placed};
 use crate::diagrams::timing::room;
 use crate::view::{Align, FlowArrow, FlowBox, FlowPicture, PictureText};
+use od_spec::order::Arrange as _;
 
 /// A wider picture is tried from top to bottom: on paper it would be too small to be read.
 const WIDEST: i64 = 700;
@@ -67,7 +68,7 @@ fn nets(graph: &Graph, ports: &[i64], layer: usize) -> (Vec<Net>, i64) {
     let is_bent = |net: &Net| net.ends.iter().any(|(_, end)| *end != net.start);
     let mut left: Vec<usize> = (0..nets.len()).filter(|at| is_bent(&nets[*at])).collect();
     // Of lines that go down, the lowest turns first, and of those that go up the highest: so they do not cross.
-    left.sort_by_key(|at| {
+    left.arrange_by_key(|at| {
         let net = &nets[*at];
         let (first, last) = net.span();
         let is_down = last - net.start >= net.start - first;

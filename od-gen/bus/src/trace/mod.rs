@@ -18,6 +18,7 @@ use std::fmt::Write as _;
 
 use firmware_glue::frame::Frame;
 use od_spec::model::{Direction, EntryId};
+use od_spec::order::Arrange as _;
 
 pub use self::line::{BadLine, Line, Seen, What};
 pub use self::node::Node;
@@ -250,7 +251,7 @@ impl<'a> Decoder<'a> {
     fn pdo(&self, id: u16, bytes: Option<&[u8]>) -> Option<Described> {
         let of_nodes = self.nodes.iter().flat_map(|node| node.pdos_at(id).map(move |pdo| (node, pdo)));
         let mut ends: Vec<_> = of_nodes.collect();
-        ends.sort_by_key(|(_, pdo)| pdo.direction == Direction::Receive);
+        ends.arrange_by_key(|(_, pdo)| pdo.direction == Direction::Receive);
         let ((node, pdo), others) = ends.split_first()?;
         let label = |node: &Node<'_>, pdo: &od_spec::model::Pdo| {
             format!("{}  {}{}", node.name(), pdo.direction.pdo(), pdo.number)

@@ -1,6 +1,7 @@
 //! Storage groups: what the stack stores and restores in one piece is one variable.
 
 use od_spec::model::{Author, Dictionary, Entry, EntryId, Fact, Index, Object, Storage, SubIndex};
+use od_spec::order::Arrange as _;
 
 /// Values that lie in one variable, because one command stores them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,7 +32,7 @@ impl<'a> Group<'a> {
     /// Each group once, in the order of the files.
     pub(super) fn in_order(groups: impl Iterator<Item = Self>) -> Vec<Self> {
         let mut groups: Vec<Self> = groups.collect();
-        groups.sort_by_key(|group| (Self::ORDER.iter().position(|one| *one == group.storage), group.name));
+        groups.arrange_by_key(|group| (Self::ORDER.iter().position(|one| *one == group.storage), group.name));
         groups.dedup();
         groups
     }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use crate::{FAN, LAMP, Scratch, code, files, odgen, stderr, stdout};
 
-/// Runs killed in a test: half of them, all in a long run, or as many as the environment says.
+/// Runs killed in a test: an eighth of them, all in a long run, or as many as the environment says.
 pub(crate) fn kills(all: u64) -> u64 {
     let otherwise = if std::env::var_os("OD_TESTS_LONG").is_some() { all } else { all.div_ceil(8) };
     std::env::var("ODGEN_KILLS").ok().and_then(|number| number.parse().ok()).unwrap_or(otherwise)

@@ -19,6 +19,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use od_spec::model::{Dictionary, System};
+use od_spec::order::Arrange as _;
 
 use messages::{Traffic, messages};
 use names::node_name;
@@ -138,7 +139,7 @@ impl fmt::Display for LeftOut {
 /// ```
 pub fn write(nodes: &[Node<'_>]) -> Written {
     let mut ascending = nodes.to_vec();
-    ascending.sort_by_key(|node| node.id);
+    ascending.arrange_by_key(|node| node.id);
     let Traffic { messages, left_out, silent } = messages(&ascending);
     let mut text = Text::new();
     text.head();

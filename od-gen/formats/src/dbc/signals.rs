@@ -4,6 +4,7 @@ use od_gen::plan::Words;
 use od_spec::model::{
     BitField, DataType, Edge, Entry, EntryId, Family, Object, Pdo, PdoTarget, Ratio, TypeKind, Value,
 };
+use od_spec::order::Arrange as _;
 use od_spec::wording::{Notation, Wording};
 
 use super::Node;
@@ -249,7 +250,7 @@ fn values(entry: &Entry) -> Vec<(i128, String)> {
             values.push((special.value, special.name.clone()));
         }
     }
-    values.sort_by_key(|(raw, _)| *raw);
+    values.arrange_by_key(|(raw, _)| *raw);
     values
 }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use od_spec::model::Index;
+use od_spec::order::Arrange as _;
 use od_spec::{Feature, Library};
 
 /// Features, and the objects that they bring.
@@ -24,7 +25,7 @@ pub(super) fn choose(library: &Library, exact: &BTreeSet<Index>, chosen: &mut Ch
         .filter_map(|feature| Some((brought(library, feature)?, feature)))
         .filter(|(objects, _)| objects.is_subset(exact))
         .collect();
-    candidates.sort_by_key(|(objects, _)| std::cmp::Reverse(objects.len()));
+    candidates.arrange_by_key(|(objects, _)| std::cmp::Reverse(objects.len()));
     let mut taken: BTreeSet<&str> = BTreeSet::new();
     for (objects, feature) in candidates {
         if !objects.is_subset(&chosen.objects) {

@@ -1,6 +1,7 @@
 //! Objects in full: VARs on a line, arrays with what their elements have in common, records by their members.
 
 use od_spec::model::{Entry, EntryId, Fact, Index, Object, ObjectKind};
+use od_spec::order::Arrange as _;
 
 use super::context::Context;
 use super::entry::{self, Keys};
@@ -187,6 +188,6 @@ fn ordered(mut keys: Keys) -> Keys {
         Fact::BitErrors,
         Fact::Eds,
     ];
-    keys.sort_by_key(|(fact, _)| ORDER.iter().position(|one| one == fact).unwrap_or(ORDER.len()));
+    keys.arrange_by_key(|(fact, _)| ORDER.iter().position(|one| one == fact).unwrap_or(ORDER.len()));
     keys
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use od_spec::name_pattern::{NamePattern, Numbers, Placeholder};
+use od_spec::order::Arrange as _;
 
 /// A name, and the numbers of what it is the name of.
 #[derive(Debug, Clone, Copy)]
@@ -69,7 +70,7 @@ pub(super) fn most_common(list: &[Named<'_>], usual: Option<&str>, preferred: Pr
     let looked_at = list.iter().step_by(step).chain(list.last());
     let texts: BTreeSet<String> = looked_at.flat_map(candidates).collect();
     let mut found: Vec<Found> = texts.into_iter().filter_map(Found::new).collect();
-    found.sort_by_key(|found| found.rank(preferred));
+    found.arrange_by_key(|found| found.rank(preferred));
     for one in found {
         let count = score(&one);
         if best.as_ref().is_none_or(|(most, _)| count > *most) {

@@ -4,6 +4,7 @@ use lsp_types::CompletionItemKind;
 use od_spec::SettingNames;
 use od_spec::model::{DataType, Dictionary, Direction, Entry, EntryId, Object, PdoMapping, System};
 use od_spec::names::Step;
+use od_spec::order::Arrange as _;
 
 use super::items::{Insert, Offer, Written};
 use super::{MARK, Wanted};
@@ -101,7 +102,7 @@ pub(super) fn objects(wanted: &Wanted<'_>) -> Vec<Offer> {
     let Some(system) = wanted.snapshot.system() else { return Vec::new() };
     let mut objects: Vec<&Object> =
         system.devices.iter().flat_map(|device: &Dictionary| device.objects.values()).collect();
-    objects.sort_by_key(|object| object.index);
+    objects.arrange_by_key(|object| object.index);
     objects.dedup_by(|one, other| one.index == other.index && one.name == other.name);
     let offer = |object: &Object| {
         let label = object.index.notation();

@@ -6,6 +6,7 @@ use std::ops::Range;
 use od_import::yaml::spelled;
 use od_spec::diag::Diagnostics;
 use od_spec::names::{By, DefinitionId, Names};
+use od_spec::order::Arrange as _;
 use od_spec::source::{SourceMap, Span};
 use od_spec::yaml::{Node, parse};
 
@@ -44,7 +45,7 @@ pub(super) fn edits(
 /// A scalar with other parts, as it is written.
 fn rewritten(written: &str, mut parts: Vec<Part>) -> Option<String> {
     let text = text_of(written)?;
-    parts.sort_by_key(|(range, _)| std::cmp::Reverse(range.as_ref().map_or(0, |range| range.start)));
+    parts.arrange_by_key(|(range, _)| std::cmp::Reverse(range.as_ref().map_or(0, |range| range.start)));
     parts.dedup();
     let mut new = text.clone();
     let whole = || 0..text.len();

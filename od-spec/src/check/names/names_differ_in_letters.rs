@@ -8,6 +8,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
 use crate::model::{BitUsage, Dictionary, EntryId, NamedType, System, SystemSource, TypeKind};
+use crate::order::Arrange as _;
 use crate::source::Span;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::System(check) };
@@ -166,14 +167,14 @@ impl Lists<'_> {
         }
         let mut names: Vec<(String, Named<'_>)> =
             names.into_iter().map(|named| (letters(named.0), named)).collect();
-        names.sort_by(|(one, _), (other, _)| one.cmp(other));
+        names.arrange_by(|(one, _), (other, _)| one.cmp(other));
         for alike in names.chunk_by(|(one, _), (other, _)| one == other).filter(|alike| alike.len() > 1) {
             let mut group: Vec<Named<'_>> = alike.iter().map(|(_, named)| *named).collect();
             // What has no letter at all has signs that readers can distinguish.
             if alike[0].0.is_empty() && group.windows(2).all(|two| two[0].0 != two[1].0) {
                 continue;
             }
-            group.sort_by_key(|(_, place)| (!place.file.is_one_with(device.span.file), *place));
+            group.arrange_by_key(|(_, place)| (!place.file.is_one_with(device.span.file), *place));
             self.report(of, help, device, &group);
         }
     }

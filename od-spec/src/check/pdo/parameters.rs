@@ -4,6 +4,7 @@ use crate::check::subject::Subject;
 use crate::check::subject::entry_id;
 use crate::diag::{Code, Diagnostic};
 use crate::model::{DataType, Entry, EntryId, Fact, Index, Mapped, Pdo, PdoTarget, Value};
+use crate::order::Arrange as _;
 use crate::source::Span;
 
 /// Bit of a COB-ID: the PDO does not exist (CiA 301, object 1400h).
@@ -99,7 +100,7 @@ impl<'a> Subject<'a> {
     /// Where a mapping as a whole is reported: at a setting of it, or else where its count is.
     pub(in crate::check) fn mapping_place(&self, pdo: &Pdo) -> Span {
         let mut parameters = self.mapping(pdo).chain(self.mapping_count(pdo)).collect::<Vec<_>>();
-        parameters.sort_by_key(|parameter| parameter.id);
+        parameters.arrange_by_key(|parameter| parameter.id);
         let set = parameters.iter().rfind(|parameter| parameter.entry.is_set());
         set.or(parameters.first()).map_or(pdo.span, |parameter| parameter.place)
     }

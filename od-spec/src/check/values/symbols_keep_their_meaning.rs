@@ -4,6 +4,7 @@ use crate::check::findings::Findings;
 use crate::check::rule::{Check, Needs, Rule};
 use crate::diag::{Code, Diagnostic, Example, Severity, shorten};
 use crate::model::{Author, Ratio, System, Unit};
+use crate::order::Arrange as _;
 use crate::scalar;
 
 pub(super) const RULE: Rule = Rule { code: CODE, needs: Needs::Nothing, check: Check::System(check) };
@@ -53,7 +54,7 @@ const PREFIXES: [(&str, i32); 22] = [
 fn check(system: &System, findings: &mut Findings) {
     let own = system.units.values().filter(|unit| unit.stated.author != Author::Library);
     let mut own: Vec<&Unit> = own.map(AsRef::as_ref).collect();
-    own.sort_by_key(|unit| (unit.stated.span.file, unit.stated.span.start));
+    own.arrange_by_key(|unit| (unit.stated.span.file, unit.stated.span.start));
     for (at, unit) in own.iter().enumerate() {
         // `1` is the unit of what has none.
         if unit.symbol != "1" && scalar::decimal(&unit.symbol).is_some() {

@@ -8,6 +8,7 @@ use crate::eds::names::{List, ModuleTopic, Topic};
 use crate::eds::number::lenient_integer;
 use crate::eds::view::{Entry, Part, View};
 use crate::model::Index;
+use crate::order::Arrange as _;
 
 /// A section that counts its entries and numbers them.
 pub(super) struct NumberedList<'v, 'd> {
@@ -92,7 +93,7 @@ impl<'v, 'd> NumberedList<'v, 'd> {
             (is_number && front.eq_ignore_ascii_case(form.prefix)).then(|| digits.parse().ok())?
         };
         let mut entries: Vec<_> = part.entries().filter_map(|entry| Some((number(&entry)?, entry))).collect();
-        entries.sort_by_key(|(number, _)| *number);
+        entries.arrange_by_key(|(number, _)| *number);
         Self { part, form, entries }
     }
 

@@ -16,6 +16,7 @@ use crate::eds::owner::is_code;
 use crate::eds::view::Part;
 use crate::expr::Expr;
 use crate::model::{Access, AccessRight, BitUsage, DataType, Family, Ratio, Storage, Text};
+use crate::order::Arrange as _;
 use crate::scalar;
 use crate::source::{Span, Spanned};
 use crate::wording::{Notation, Wording};
@@ -36,7 +37,7 @@ impl Meanings {
     /// The units and types for the declaration.
     pub(super) fn into_declarations(self) -> (Vec<UnitDecl>, Vec<TypeDecl>) {
         let mut types: Vec<TypeDecl> = self.types.into_values().collect();
-        types.sort_by(|one, other| one.name.value.cmp(&other.name.value));
+        types.arrange_by(|one, other| one.name.value.cmp(&other.name.value));
         (self.units.into_values().collect(), types)
     }
 
@@ -366,7 +367,7 @@ fn withheld(entry: EntryDecl, text: &str, data_type: DataType, place: Span) -> E
 
 /// A bit field of bits with names; `None` where they are not those of one.
 fn bits(mut list: Vec<(BitRange, String)>, data_type: DataType, place: Span) -> Option<TypeDecl> {
-    list.sort_by_key(|(range, _)| range.first);
+    list.arrange_by_key(|(range, _)| range.first);
     let width = data_type.bits()?;
     let apart = list.windows(2).all(|pair| pair[0].0.last < pair[1].0.first);
     let names: BTreeSet<&String> = list.iter().map(|(_, name)| name).collect();

@@ -8,6 +8,7 @@ use crate::eds::coded;
 use crate::eds::names::{ModuleTopic, Topic, canonical};
 use crate::eds::view::{ObjectPart, Part, View};
 use crate::model::{Further, FurtherSection, Index, KeyValue, Module};
+use crate::order::Arrange as _;
 
 /// Keys of sections, by their names.
 pub(super) type KeysBySection = BTreeMap<String, Vec<KeyValue>>;
@@ -194,6 +195,6 @@ fn comments(part: &Part<'_>) -> Vec<String> {
         is_line.then_some((number, entry.value.value))
     });
     let mut lines: Vec<(u32, &str)> = lines.collect();
-    lines.sort_by_key(|(number, _)| *number);
+    lines.arrange_by_key(|(number, _)| *number);
     lines.into_iter().map(|(_, text)| text.to_owned()).collect()
 }

@@ -28,6 +28,7 @@ use crate::ast::{DeviceDecl, ObjectDecl, Spec};
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::limits::{ENTRIES_OF_DEVICE, Room};
 use crate::model::{Further, Index};
+use crate::order::Arrange as _;
 use crate::source::{Span, Spanned};
 use crate::wording::FileFormat;
 use std::sync::Arc;
@@ -121,7 +122,7 @@ fn objects(
     implicit_pdos::add(view, &mut objects);
     let of_modules = modules::add(view, &mut objects, &mut context);
     context.diagnostics.now_about(None);
-    objects.sort_by_key(|object| object.index.value);
+    objects.arrange_by_key(|object| object.index.value);
     (objects, of_modules)
 }
 

@@ -12,22 +12,24 @@ use crate::tools::has_shipped_target;
 const CLIPPY: [&str; 2] = ["clippy", "--quiet"];
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
-/// Firmware that is built for a Cortex-M, outside the workspace, with its sets of features.
-const FIRMWARE: [(&str, &[&str]); 2] =
-    [("firmware-glue/examples/pitch-controller", &["", "names"]), ("tests/thumb/node", &[""])];
+/// An example that has a feature of its own.
+const EXAMPLE: &str = "firmware-glue/examples/pitch-controller";
+/// Firmware that is built for a Cortex-M, outside the workspace.
+const FIRMWARE: [&str; 2] = [EXAMPLE, "tests/thumb/node"];
 
 /// Folders whose files are declared by a macro.
 const RULES: [&str; 3] = ["od-spec/src/check", "od-spec/src/eds/check", "od-spec/src/plant/rules"];
 
 /// Features of which each is also tried alone.
-const FEATURES: [(&str, &[&str]); 3] = [
+const FEATURES: [(&str, &[&str]); 4] = [
     ("od-gen", &["", "format"]),
-    ("firmware-glue", &["", "critical-section", "defmt", "embedded-can", "sdo-block", "storage"]),
+    ("firmware-glue", &["critical-section", "defmt", "embedded-can", "sdo-block", "storage"]),
+    ("od-generated", &["defmt"]),
     ("od-spec", &["", "xdd"]),
 ];
 
-/// Format and lints, as they have to be. What users compile with few features, and `firmware-glue` with all of them, is
-/// looked at in addition to the workspace, which has those that its members ask for.
+/// Format and lints, as they have to be. `firmware-glue` without features is looked at in addition to the workspace, which has
+/// those that its members ask for.
 pub(crate) fn check(runner: &mut Runner) -> Result<(), Failure> {
     runner.cargo(&["fmt", "--all", "--check"])?;
     format_of_rules(runner)?;
@@ -36,8 +38,12 @@ pub(crate) fn check(runner: &mut Runner) -> Result<(), Failure> {
         clippy(runner, &["--package", "firmware-glue", "--all-targets", "--all-features"])?;
     }
     clippy(runner, &["--package", "firmware-glue", "--lib", "--no-default-features"])?;
-    runner.cargo(&["check", "--quiet", "--package", "od-generated", "--features", "defmt"])?;
-    firmware(runner)
+    for directory in FIRMWARE {
+        let manifest = root().join(directory).join("Cargo.toml");
+        runner.cargo(&["fmt", "--check", "--manifest-path", &manifest.to_string_lossy()])?;
+        firmware(runner, directory, "")?;
+    }
+    Ok(())
 }
 
 /// Whether every compilation is one by clippy, as `.ci/run` asks for: a finding has stopped it then.
@@ -78,22 +84,14 @@ fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
 }
 
 /// Where clippy can: Debian's Rust builds `core` without it.
-fn firmware(runner: &mut Runner) -> Result<(), Failure> {
+fn firmware(runner: &mut Runner, directory: &str, features: &str) -> Result<(), Failure> {
     if !has_shipped_target() {
         return Ok(());
     }
-    for (directory, sets) in FIRMWARE {
-        let manifest = root().join(directory).join("Cargo.toml");
-        let manifest = manifest.to_string_lossy();
-        runner.cargo(&["fmt", "--check", "--manifest-path", &manifest])?;
-        for features in sets {
-            // There the target and the linker's script are named.
-            let mut command = cargo(&CLIPPY);
-            command.args(["--release", "--locked", "--features", features]).args(DENY);
-            runner.run_in(&root().join(directory), &mut command)?;
-        }
-    }
-    Ok(())
+    // There the target and the linker's script are named.
+    let mut command = cargo(&CLIPPY);
+    command.args(["--release", "--locked", "--features", features]).args(DENY);
+    runner.run_in(&root().join(directory), &mut command)
 }
 
 /// Each feature alone: a user who needs one compiles no other.
@@ -103,7 +101,7 @@ pub(crate) fn features(runner: &mut Runner) -> Result<(), Failure> {
             clippy(runner, &["--package", package, "--lib", "--no-default-features", "--features", feature])?;
         }
     }
-    Ok(())
+    firmware(runner, EXAMPLE, "names")
 }
 
 fn clippy(runner: &mut Runner, what: &[&str]) -> Result<(), Failure> {

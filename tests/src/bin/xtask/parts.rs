@@ -124,7 +124,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 49] = [
+pub(crate) static PARTS: [Part; 50] = [
     rust("form", "form", Tier::Check, form::check),
     rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
@@ -229,6 +229,12 @@ pub(crate) static PARTS: [Part; 49] = [
             plain_c::try_all(runner, Amount::Sample)
         })
     },
+    Part {
+        area: Area::Readers,
+        turn: Turn::Beside,
+        needs: &[Tool::Python, Tool::Valgrind],
+        ..rust("instructions", "instructions of eight commands", Tier::Gate, readers::instructions)
+    },
     rust(
         "long-rust",
         "Rust tests with all random values",
@@ -322,8 +328,8 @@ pub(crate) static PARTS: [Part; 49] = [
             "long-plain-c",
             "dictionaries in plain C with all random requests",
             Tier::Long(
-                "finds rare faults only; the gate asks the first quarter of the same requests, and one of the \
-                 shipped devices",
+                "finds rare faults only; the gate asks the first quarter of the same requests, and none of the \
+                 shipped devices, which the Rust tests ask on the host",
             ),
             |runner| plain_c::try_all(runner, Amount::All),
         )
@@ -344,7 +350,7 @@ pub(crate) static PARTS: [Part; 49] = [
         ..reader(
             "long-sdo",
             "SDO client with all devices",
-            Tier::Long("asks three devices the same; the gate asks one"),
+            Tier::Long("asks three devices the same, and on a bus that loses frames; the gate asks one"),
             |runner| readers::sdo_client(runner, Amount::All),
         )
     },
@@ -398,7 +404,7 @@ pub(crate) static PARTS: [Part; 49] = [
             "all documents in a browser",
             Tier::Long(
                 "looks at eight documents, at everything in each width; the gate looks at three, at one of each kind, \
-                 and asks the largest a third of the questions",
+                 and asks the largest a sixth of the questions",
             ),
             |runner| browser::read_documents(runner, Amount::All),
         )
@@ -492,7 +498,7 @@ mod tests {
                 .iter()
                 .all(|name| name.bytes().all(|byte| byte.is_ascii_lowercase() || b"-2".contains(&byte)))
         );
-        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Cppcheck));
+        assert!(Tool::ALL.is_sorted() && Tool::ALL.last() == Some(&Tool::Valgrind));
     }
 
     #[test]

@@ -102,6 +102,18 @@ pub(crate) fn predicted(runner: &mut Runner, amount: Amount) -> Result<(), Failu
     runner.run(Command::new("python3").arg(script).args(sample(amount)).arg("--odgen").arg(odgen))
 }
 
+/// That commands take no more instructions than a table has. They are counted on any machine, but depend on how the program was
+/// compiled: the table is of a build without incremental compilation, as that of the gate.
+pub(crate) fn instructions(runner: &mut Runner) -> Result<(), Failure> {
+    let odgen = beside("odgen")?;
+    let table = "tests/bench/instructions.tsv";
+    runner.run(
+        Command::new("python3")
+            .args(["tests/bench/instructions.py", "--held-to", table, "--odgen"])
+            .arg(odgen),
+    )
+}
+
 /// What eds2c makes of the EDS files of the shipped devices.
 pub(crate) fn firmware_in_c(runner: &mut Runner) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };
@@ -276,7 +288,7 @@ pub(crate) fn sdo_client(runner: &mut Runner, amount: Amount) -> Result<(), Fail
     let paths = specs.iter().map(|stem| format!("od-spec/devices/{stem}.od.yaml"));
     let virtual_pdo = ["tests/readers/virtual_pdo.py", "tests/readers/everything.od.yaml"];
     runner.run(Command::new(&python).args(virtual_pdo).args(paths).arg("--odgen").arg(&odgen))?;
-    virtual_nodes::prove(runner, specs, &python, &odgen)?;
+    virtual_nodes::prove(runner, amount, specs, &python, &odgen)?;
     let client = beside("sdo-client")?;
     let arguments = ["tests/readers/sdo_local_node.py", "generated/eds/fullmo.eds", "--client"];
     runner.run(Command::new(&python).args(arguments).arg(&client))?;

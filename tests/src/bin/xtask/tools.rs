@@ -41,10 +41,12 @@ pub(crate) enum Tool {
     Emacs,
     /// Reads C by the rules of MISRA.
     Cppcheck,
+    /// Counts instructions.
+    Valgrind,
 }
 
 impl Tool {
-    pub(crate) const ALL: [Tool; 14] = [
+    pub(crate) const ALL: [Tool; 15] = [
         Tool::Python,
         Tool::Node,
         Tool::Chromium,
@@ -59,6 +61,7 @@ impl Tool {
         Tool::Wine,
         Tool::Emacs,
         Tool::Cppcheck,
+        Tool::Valgrind,
     ];
 
     pub(crate) const fn name(self) -> &'static str {
@@ -77,6 +80,7 @@ impl Tool {
             Tool::Wine => "Wine",
             Tool::Emacs => "Emacs with eglot and yaml-mode",
             Tool::Cppcheck => "cppcheck with its addon misra",
+            Tool::Valgrind => "Valgrind",
         }
     }
 
@@ -102,6 +106,7 @@ impl Tool {
             Tool::Wine => &["apt-get install wine wine64"],
             Tool::Emacs => &["apt-get install emacs-nox elpa-eglot elpa-yaml-mode"],
             Tool::Cppcheck => &["apt-get install cppcheck"],
+            Tool::Valgrind => &["apt-get install valgrind"],
         }
     }
 
@@ -128,6 +133,7 @@ impl Tool {
             Tool::WindowsTarget => has_target_of_rustc(WINDOWS_TARGET),
             Tool::Mingw => is_in_path("x86_64-w64-mingw32-gcc"),
             Tool::Wine => is_in_path("wine"),
+            Tool::Valgrind => is_in_path("valgrind"),
             Tool::Emacs => {
                 let check = "(progn (package-initialize) (require 'eglot) (require 'yaml-mode))";
                 is_in_path("emacs") && succeeds(Command::new("emacs").args(["--batch", "--eval", check]))

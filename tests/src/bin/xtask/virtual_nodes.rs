@@ -1,4 +1,5 @@
-//! Virtual nodes, under masters that others wrote: a whole turbine, every access to every entry, a bus that loses frames.
+//! Virtual nodes, under masters that others wrote: a whole turbine, every access to every entry, and in a long run a bus that loses
+//! frames.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,12 +8,19 @@ use od_formats::{Selection, artifacts};
 use od_gen::files::write_all;
 use od_tests::{Failure, compile_clean, root};
 
+use crate::parts::Amount;
 use crate::runner::Runner;
 
 /// Where the files of `limits.od.yaml` go.
 const LIMITS: &str = "target/limits";
 
-pub(crate) fn prove(runner: &mut Runner, specs: &[&str], python: &Path, odgen: &Path) -> Result<(), Failure> {
+pub(crate) fn prove(
+    runner: &mut Runner,
+    amount: Amount,
+    specs: &[&str],
+    python: &Path,
+    odgen: &Path,
+) -> Result<(), Failure> {
     let mut run = |script: &str, arguments: &[&str]| {
         runner.run(Command::new(python).arg(script).args(arguments).arg("--odgen").arg(odgen))
     };
@@ -35,5 +43,9 @@ pub(crate) fn prove(runner: &mut Runner, specs: &[&str], python: &Path, odgen: &
     let (dump, eds) = (format!("{LIMITS}/limits.json"), format!("{LIMITS}/eds"));
     let arguments = ["--dump", &dump, "--eds-dir", &eds, "--spec", spec, "--least", "1500"];
     run("tests/readers/access_table.py", &arguments)?;
-    run("tests/readers/lossy_bus.py", &[])
+    match amount {
+        // It waits for answers that do not come most of the time.
+        Amount::All => run("tests/readers/lossy_bus.py", &[]),
+        Amount::Sample => Ok(()),
+    }
 }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use od_spec::diag::render::{plural, summary};
 use od_spec::diag::{Code, Diagnostics, Severity};
+use od_spec::order::Arrange as _;
 use od_spec::visible::visible;
 
 use super::checked::{Checked, Kind};
@@ -123,7 +124,7 @@ impl Total {
         let mut line = format!("{} files: {}", self.files, counts.join(", "));
         let mut frequent: Vec<(&Code, usize)> =
             self.codes.iter().map(|(code, files)| (*code, *files)).collect();
-        frequent.sort_by_key(|(_, files)| std::cmp::Reverse(*files));
+        frequent.arrange_by_key(|(_, files)| std::cmp::Reverse(*files));
         if let Some((first, _)) = frequent.first() {
             let most = frequent.iter().take(MOST_FREQUENT);
             let most: Vec<String> = most

@@ -7,6 +7,7 @@ use super::keys_are_one_word::is_word;
 use crate::diag::{Code, Diagnostic, Diagnostics, shorten};
 use crate::eds::names::Topic;
 use crate::eds::view::Part;
+use crate::order::Arrange as _;
 use crate::source::Span;
 
 /// Names that are said; a file that is no EDS has many.
@@ -44,7 +45,7 @@ pub(super) fn report<'v, 'd: 'v>(
         }
     }
     let mut names: Vec<_> = names.into_iter().collect();
-    names.sort_by_key(|(_, unknown)| unknown.place);
+    names.arrange_by_key(|(_, unknown)| unknown.place);
     for (name, Unknown { place, times, known }) in names.into_iter().take(MOST) {
         let times = if times > 1 { format!("; it is written {times} times") } else { String::new() };
         let message = format!("`{}` is not a key of the standard {here}{times}", shorten(name));
