@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Count the instructions that odgen takes: the same in every run, whatever else the machine does.
 
-    instructions.py [--odgen FILE ...] [--growth] [--numbers 300 600 1200] [--only TEXT]
+    instructions.py [--odgen FILE ...] [--readme] [--growth] [--numbers 300 600 1200] [--only TEXT]
     instructions.py --odgen FILE --held-to tests/bench/instructions.tsv [--write]
 
-Needs valgrind (its tool callgrind counts). Several programs are counted side by side, such as one from before a change. With
---growth it takes specifications that hold something many times (`cargo run -p od-tests --bin patterns`), at three sizes, and
-the exit code is 1 where the work grows faster than the size. With --held-to it runs eight commands on small files, and the exit
-code is 1 where one takes 5 % more than the table says; --write writes the table.
+Needs valgrind (its tool callgrind counts). Several programs are counted side by side, such as one from before a change; with
+--readme, the table goes into README.md beside this script. With --growth it takes specifications that hold something many times
+(`cargo run -p od-tests --bin patterns`), at three sizes, and the exit code is 1 where the work grows faster than the size. With
+--held-to it runs eight commands on small files, and the exit code is 1 where one takes 5 % more than the table says; --write
+writes the table.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 PITCH = ROOT / "od-spec" / "devices" / "pitch-control-system.od.yaml"
 COLLECTED = re.compile(r"Collected : (\d+)")
+MARKED = re.compile("(<!-- instructions -->)\n.*?(<!-- /instructions -->)", re.DOTALL)
 # Sorted maps cost a little more for each of many; a square would be 4.
 MOST = 2.3
 # Eight commands on a small device, each with the files that the ones before it made.
@@ -52,6 +54,7 @@ def main() -> int:
     parser.add_argument("--growth", action="store_true", help="how the work grows, instead of how much it is")
     parser.add_argument("--numbers", type=int, nargs=3, default=[300, 600, 1200])
     parser.add_argument("--only", default="", help="patterns with this in their names")
+    parser.add_argument("--readme", action="store_true", help="write the table into README.md")
     parser.add_argument("--held-to", type=Path, metavar="TABLE", help="compare eight commands with a table")
     parser.add_argument("--write", action="store_true", help="write the table instead")
     options = parser.parse_args()
@@ -63,7 +66,14 @@ def main() -> int:
         work = Path(folder)
         if options.held_to:
             return held(programs[0], work, options)
-        return growth(programs[0], work, options) if options.growth else amounts(programs, work)
+        if options.growth:
+            return growth(programs[0], work, options)
+        rows = amounts(programs, work)
+        if options.readme:
+            readme = HERE / "README.md"
+            text = readme.read_text(encoding="utf-8")
+            readme.write_text(MARKED.sub(lambda found: "\n".join([found[1], *rows, found[2]]), text), encoding="utf-8")
+        return 0
 
 
 def held(program: Path, work: Path, options: argparse.Namespace) -> int:
@@ -118,14 +128,15 @@ def count(command: list[str]) -> int:
     return int(found[1])
 
 
-def amounts(programs: list[Path], work: Path) -> int:
+def amounts(programs: list[Path], work: Path) -> list[str]:
     specs = {"pitch system": PITCH}
     for size in (150, 2000, 10000):
         path = work / f"synthetic-{size}.od.yaml"
         path.write_text(synthetic.specification(size), encoding="utf-8")
         specs[f"{size} objects"] = path
-    print("| command | " + " | ".join(f"{path} M" if len(programs) > 1 else "M instructions" for path in programs) + " |")
-    print("|---|" + "--:|" * len(programs))
+    columns = [f"{path} M" if len(programs) > 1 else "M instructions" for path in programs]
+    rows = [f"| command | {' | '.join(columns)} |", "|---|" + "--:|" * len(programs)]
+    print("\n".join(rows))
     for name, spec in specs.items():
         for words in ("check", "build", "docs"):
             row = []
@@ -134,8 +145,9 @@ def amounts(programs: list[Path], work: Path) -> int:
                 shutil.rmtree(out, ignore_errors=True)
                 command = [str(program), words, str(spec)] + ([] if words == "check" else ["--out", str(out)])
                 row.append(f"{count(command) / 1e6:.0f}")
-            print(f"| odgen {words}, {name} | " + " | ".join(row) + " |", flush=True)
-    return 0
+            rows.append(f"| odgen {words}, {name} | {' | '.join(row)} |")
+            print(rows[-1], flush=True)
+    return rows
 
 
 def growth(program: Path, work: Path, options: argparse.Namespace) -> int:
