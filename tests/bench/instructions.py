@@ -5,7 +5,7 @@
     instructions.py --odgen FILE --held-to tests/bench/instructions.tsv [--write]
 
 Needs valgrind (its tool callgrind counts). Several programs are counted side by side, such as one from before a change; with
---readme, the table goes into README.md beside this script. With --growth it takes specifications that hold something many times
+--readme, the table goes into the README.md of its folder. With --growth it takes specifications that hold something many times
 (`cargo run -p od-tests --bin patterns`), at three sizes, and the exit code is 1 where the work grows faster than the size. With
 --held-to it runs eight commands on small files, and the exit code is 1 where one takes 5 % more than the table says; --write
 writes the table.
