@@ -110,8 +110,8 @@ impl Builder {
         self
     }
 
-    /// Lays the modules out for people. Without it, each item is one line: laying out takes most of the time of a build script,
-    /// which cargo compiles without optimisation.
+    /// Lays the modules out for people. Without it, each statement is one line: laying out takes most of the time of a build
+    /// script, which cargo compiles without optimisation.
     #[cfg(feature = "format")]
     pub fn formatted(mut self) -> Self {
         self.layout = rust::file;

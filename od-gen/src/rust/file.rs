@@ -76,8 +76,8 @@ pub fn file(
     Some(out)
 }
 
-/// The module of a device with a statement in each line: for the compiler and its lints, which look at lines. Laying it out for people takes longer
-/// than everything before it.
+/// The module of a device with a statement in each line: for the compiler and its lints, which look at lines. Laying it out for
+/// people takes longer than everything before it.
 pub fn plain_file(
     system: &System,
     device: &Dictionary,
@@ -124,13 +124,12 @@ fn write_line(out: &mut String, line: &mut Vec<TokenTree>, end: &str, depth: usi
 
 /// What the compiler shows with a line: when there is no `firmware-glue`, and when the file was made for another layout of it.
 fn hint(line: &str) -> &'static str {
-    let line = line.trim_end_matches(';').trim_end();
-    if line.ends_with(" as firmware") {
-        " // An error here? Add `firmware-glue` to the dependencies."
-    } else if line.ends_with(" as glue") {
-        " // An error here? Generate this file again."
-    } else {
-        ""
+    // A text of the specification may end like these, in a comment.
+    let used = line.strip_prefix("use ").and_then(|line| line.strip_suffix(';'));
+    match used.and_then(|used| used.split_whitespace().last()) {
+        Some("firmware") => " // An error here? Add `firmware-glue` to the dependencies.",
+        Some("glue") => " // An error here? Generate this file again.",
+        _ => "",
     }
 }
 

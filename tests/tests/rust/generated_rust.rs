@@ -95,13 +95,15 @@ fn clippy_has_nothing_to_say_under_its_own_lints() {
     let glue = root().join("firmware-glue/src/lib.rs");
     let (compiled, said) = scratch.compile("rustc", &glue, &["--crate-name", "firmware_glue"]);
     assert!(compiled, "{said}");
-    let modules = all_modules(rust::file);
-    assert!(modules.len() > 10);
     let glue = format!("firmware_glue={}", scratch.0.join("libfirmware_glue.rmeta").display());
     let run = |program: &Path| {
         scratch.compile("clippy-driver", program, &["--crate-name", "program", "--extern", &glue])
     };
-    assert_eq!(run(&scratch.program(&modules, "")), (true, String::new()));
+    for layout in od_tests::sample([rust::file as Layout, rust::plain_file]) {
+        let modules = all_modules(layout);
+        assert!(modules.len() > 10);
+        assert_eq!(run(&scratch.program(&modules, "")), (true, String::new()));
+    }
     // The same way shows what clippy does mind.
     let (compiled, said) = run(&scratch.program(&[], "pub fn f(x: u8) -> u8 { return x; }"));
     assert!(compiled && said.contains("needless_return"), "{said}");
@@ -119,6 +121,24 @@ fn without_firmware_glue_there_is_one_error_which_says_what_to_add() {
         let errors = said.lines().filter(|line| line.starts_with("error") && !line.contains("aborting"));
         assert_eq!((compiled, errors.count()), (false, 1), "{name}: {said}");
         assert!(said.contains("Add `firmware-glue` to the dependencies."), "{name}: {said}");
+    }
+}
+
+#[test]
+fn a_text_that_ends_like_a_line_with_a_hint_gets_none() {
+    let text = "od-spec: 1
+title: Lamp
+uses: [cia301]
+devices: {lamp: {name: Lamp, bit-rates: [125], features: [heartbeat producer]}}
+objects:
+  0x2000: {name: level, type: unsigned8, access: rw, about: the same as firmware}
+  0x2001: {name: step, type: unsigned8, access: rw, about: \"type it as glue;\"}
+";
+    for layout in [rust::file as Layout, rust::plain_file] {
+        let (_, module) = modules("lamp.od.yaml", text, layout).pop().unwrap();
+        let hints = module.lines().filter(|line| line.contains("// An error here?"));
+        assert_eq!(hints.filter(|line| !line.starts_with("use ")).collect::<Vec<_>>(), [""; 0]);
+        assert_eq!(module.matches("// An error here?").count(), 2);
     }
 }
 

@@ -189,7 +189,7 @@ fn try_all(project: &Project, least: usize) -> [usize; DIFFERENCES.len()] {
 
 #[test]
 fn every_access_to_the_shipped_devices_ends_as_in_rust() {
-    for (stem, least) in od_tests::sample([("fullmo-drive", 10_000), ("pitch-control-system", 50_000)]) {
+    for (stem, least) in [("pitch-control-system", 50_000), ("fullmo-drive", 10_000)] {
         for project in of_workspace(&format!("od-spec/devices/{stem}.od.yaml")) {
             let [history, bases, locked, domains, _] = try_all(&project, least);
             let (has_history, has_locked) = (project.key() != "fullmo", project.key() != "pmc");
@@ -205,7 +205,7 @@ fn every_access_to_the_shipped_devices_ends_as_in_rust() {
 
 #[test]
 fn every_access_to_values_of_every_width_ends_as_in_rust() {
-    for stem in od_tests::sample(["everything", "limits"]) {
+    for stem in ["limits", "everything"] {
         for project in of_workspace(&format!("tests/readers/{stem}.od.yaml")) {
             let [history, bases, _, domains, _] = try_all(&project, 10_000);
             let is_everything = stem == "everything";

@@ -9,7 +9,7 @@ use crate::canopennode::project::{Project, of_text, of_workspace};
 
 #[test]
 fn every_entry_of_the_shipped_devices_is_what_the_dump_says() {
-    for (stem, least) in od_tests::sample([("fullmo-drive", 150), ("pitch-control-system", 150)]) {
+    for (stem, least) in [("pitch-control-system", 150), ("fullmo-drive", 150)] {
         for project in of_workspace(&format!("od-spec/devices/{stem}.od.yaml")) {
             compare(&project, least);
         }
@@ -27,7 +27,7 @@ fn every_entry_of_a_device_with_every_type_is_what_the_dump_says() {
 
 #[test]
 fn every_entry_of_an_eds_is_what_the_dump_says() {
-    for key in od_tests::sample(["pmc", "pmm", "fullmo"]) {
+    for key in ["pmc", "pmm", "fullmo"] {
         let text = std::fs::read_to_string(root().join(format!("generated/eds/{key}.eds"))).unwrap();
         compare(&of_text(&format!("{key}.eds"), &text), 150);
     }
