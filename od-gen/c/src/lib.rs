@@ -79,6 +79,11 @@ pub fn artifacts<'a>(
     if diagnostics.errors_found() == before { set } else { Vec::new() }
 }
 
+/// The folder of a device in C, and what begins its names: `my_fan` of the key `my-fan`.
+pub fn device_prefix(key: &str) -> String {
+    names::prefix(key)
+}
+
 /// The macro with the index of each entry, such as `PMC_INDEX_STATUSWORD`; of none where the device cannot be C.
 pub fn index_names(system: &System, device: &Dictionary) -> BTreeMap<EntryId, String> {
     let mut diagnostics = Diagnostics::new();

@@ -7,7 +7,12 @@ use od_spec::visible::is_hidden;
 
 /// What is wrong with a path that an output asks for, in words; its parts are separated by `/`.
 pub fn name_problem(path: &str) -> Option<String> {
-    path.split('/').find_map(part_problem)
+    path.split('/').find_map(part_problem).or_else(|| {
+        // A directory like `.cargo` has no ending.
+        let file = path.rsplit('/').next().unwrap_or_default();
+        let is_only_ending = file.starts_with('.') && !file.trim_start_matches('.').contains('.');
+        is_only_ending.then(|| format!("there is nothing before the ending of `{}`", file.escape_debug()))
+    })
 }
 
 /// Two of these paths that are one file on systems which do not distinguish upper and lower case.
@@ -25,9 +30,6 @@ fn part_problem(part: &str) -> Option<String> {
     }
     if part == "." || part == ".." {
         return Some(format!("`{shown}` is a directory, not a file name"));
-    }
-    if part.starts_with('.') && !part.trim_start_matches('.').contains('.') {
-        return Some(format!("there is nothing before the ending of `{shown}`"));
     }
     if part.contains(is_hidden) {
         return Some(format!("`{shown}` holds an invisible character"));
@@ -58,6 +60,7 @@ mod tests {
             "a/",
             "...json",
             ".json",
+            "a/.json",
             "aux",
             "AUX.eds",
             "eds/nul.eds",
@@ -83,6 +86,7 @@ mod tests {
             "com10.eds",
             "com.eds",
             ".hidden.json",
+            ".cargo/config.toml",
             "größe ².json",
             "a..b",
         ] {

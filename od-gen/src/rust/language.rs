@@ -103,7 +103,7 @@ const fn taken(scope: ScopeKind) -> &'static [&'static str] {
 }
 
 /// The name of a device's module.
-pub(super) fn module(key: &str) -> String {
+pub fn module(key: &str) -> String {
     Rust.identifier(ScopeKind::Constraints, Role::Function, &Words::of(key))
 }
 

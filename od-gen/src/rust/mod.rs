@@ -12,7 +12,7 @@ use od_spec::diag::Diagnostics;
 use od_spec::model::{Dictionary, EntryId, System};
 use proc_macro2::TokenStream;
 
-pub use self::language::Rust;
+pub use self::language::{Rust, module};
 use crate::plan::{Plan, PlannedEntry, Shape, decided, plan};
 pub use crate::provenance::Provenance;
 

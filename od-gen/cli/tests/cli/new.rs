@@ -73,3 +73,111 @@ fn new_refuses_what_it_cannot_make() {
     assert_eq!(fs::read_to_string(kept).unwrap(), "mine");
     assert_eq!(files(&scratch.0), ["there.od.yaml"]);
 }
+
+/// The files of a firmware, below the directory of its device.
+const FIRMWARE: [(&str, &[&str]); 3] = [
+    (
+        "rust",
+        &[
+            ".cargo/config.toml",
+            "Cargo.toml",
+            "build.rs",
+            "memory.x",
+            "my-fan.od.yaml",
+            "src/can.rs",
+            "src/main.rs",
+        ],
+    ),
+    (
+        "c",
+        &[
+            "Makefile",
+            "board.ld",
+            "my-fan.od.yaml",
+            "src/board.c",
+            "src/can.c",
+            "src/can.h",
+            "src/main.c",
+            "src/sdo.c",
+            "src/sdo.h",
+        ],
+    ),
+    ("canopennode", &["main.c", "my-fan.od.yaml", "sources.mk"]),
+];
+
+#[test]
+fn new_writes_a_firmware() {
+    for (language, expected) in FIRMWARE {
+        let scratch = Scratch::new(&format!("new-firmware-{language}"));
+        let arguments = ["new", "my-fan", "--firmware", language];
+        let output = odgen(&scratch.0, &arguments);
+        assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+        assert!(stdout(&output).contains("next: `cd my-fan`, then `"), "{}", stdout(&output));
+        let mut made = files(&scratch.0.join("my-fan"));
+        made.sort();
+        assert_eq!(made, expected, "{language}");
+        for file in expected {
+            let text = fs::read_to_string(scratch.0.join("my-fan").join(file)).unwrap();
+            // No mark of a template is left.
+            let marks = [
+                "<key>",
+                "<title>",
+                "<prefix>",
+                "<PREFIX>",
+                "<module>",
+                "<Dictionary>",
+                "<glue>",
+                "<rpdos>",
+                "<tpdos>",
+            ];
+            assert!(!marks.iter().any(|mark| text.contains(mark)), "{language}: {file}:\n{text}");
+            assert!(
+                text.ends_with('\n') && !text.lines().any(|line| line.ends_with(' ')),
+                "{language}: {file}"
+            );
+        }
+        // What is there is the user's.
+        let main = expected.iter().find(|file| file.contains("main.")).unwrap();
+        let main = scratch.0.join("my-fan").join(main);
+        fs::write(&main, "mine").unwrap();
+        fs::remove_file(scratch.0.join("my-fan/my-fan.od.yaml")).unwrap();
+        let output = odgen(&scratch.0, &arguments);
+        assert_eq!(code(&output), 1, "{}", stdout(&output));
+        assert_eq!(fs::read_to_string(main).unwrap(), "mine");
+        assert!(!scratch.0.join("my-fan/my-fan.od.yaml").exists());
+    }
+}
+
+#[test]
+fn a_firmware_in_rust_takes_the_crates_from_where_glue_says() {
+    let scratch = Scratch::new("new-glue");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap();
+    let glue = root.to_str().unwrap();
+    let output = odgen(&scratch.0, &["new", "fan", "--firmware", "rust", "--glue", glue]);
+    assert_eq!((code(&output), stderr(&output)), (0, String::new()));
+    let cargo = fs::read_to_string(scratch.0.join("fan/Cargo.toml")).unwrap();
+    assert!(cargo.contains("/od-gen\" }") && !cargo.contains("../odgen"), "{cargo}");
+    for arguments in [
+        &["--firmware", "rust", "--glue", "nowhere"][..],
+        &["--firmware", "c", "--glue", glue],
+        &["--glue", glue],
+    ] {
+        let output = odgen(&scratch.0, &[&["new", "other"], arguments].concat());
+        assert_ne!(code(&output), 0);
+        assert!(stderr(&output).contains("help: "), "{}", stderr(&output));
+        assert!(!scratch.0.join("other").exists());
+    }
+}
+
+/// The server of the book is the one that is tried with every entry of a dictionary.
+#[test]
+fn a_firmware_in_c_has_the_sdo_server_of_the_book() {
+    let scratch = Scratch::new("new-sdo");
+    assert_eq!(code(&odgen(&scratch.0, &["new", "valve", "--firmware", "c"])), 0);
+    let made = fs::read_to_string(scratch.0.join("valve/src/sdo.c")).unwrap();
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap();
+    let book = fs::read_to_string(root.join("tests/book/sdo_server.c")).unwrap();
+    let server = |text: &str| text.split_once("static enum").unwrap().1.replace(", NULL)", ", &application)");
+    let about = "/** Answers a request; false for an abort, which has no answer. */\n";
+    assert_eq!(server(&made), server(&book).replace(about, ""));
+}

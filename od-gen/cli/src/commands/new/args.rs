@@ -35,6 +35,14 @@ pub(crate) struct NewArgs {
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=254))]
     pub analogue_outputs: Option<u16>,
 
+    /// Make a firmware for it, too, in a directory with the name of the device
+    #[arg(long, value_enum, value_name = "LANGUAGE")]
+    pub firmware: Option<Firmware>,
+
+    /// Clone of odgen with the crates that firmware in Rust needs; they are not published yet
+    #[arg(long, value_name = "DIR")]
+    pub glue: Option<PathBuf>,
+
     /// Directory for the file
     #[arg(long, short, default_value = ".", value_name = "DIR")]
     pub out: PathBuf,
@@ -52,4 +60,14 @@ pub(crate) enum Profile {
     Cia401,
     /// Drives and motion control; its modes are pp, vl, pv, tq, hm, ip, csp, csv, cst
     Cia402,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Firmware {
+    /// A whole node in Rust, which `cargo run --release` starts in QEMU
+    Rust,
+    /// The dictionary in C with an SDO server, which `make run` starts in QEMU
+    C,
+    /// A main program for CANopenNode and the list of files to compile; the stack and its driver are yours
+    Canopennode,
 }

@@ -1,7 +1,8 @@
-//! `odgen new`: a commented specification to start from.
+//! `odgen new`: a commented specification to start from, and a firmware for it.
 
 mod args;
 mod drive;
+mod firmware;
 mod io;
 mod template;
 
@@ -11,13 +12,14 @@ use od_gen::Artifact;
 use od_gen::files::{Existing, write_set};
 use od_spec::diag::{Diagnostic, codes};
 use od_spec::file_name;
+use od_spec::model::System;
 use od_spec::source::SourceMap;
 use od_spec::{NoFiles, compile, is_device_key};
 
 use crate::output::not_written;
 use crate::report::{Report, print, shown as shown_path};
 pub(crate) use args::NewArgs;
-use args::Profile;
+use args::{Firmware, Profile};
 use template::fill;
 
 pub(crate) fn run(args: &NewArgs, report: &Report) -> u8 {
@@ -51,8 +53,15 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
             (drive::specification(key, &modes), format!("a drive with {}", drive::list(&modes)))
         }
     };
+    if args.glue.is_some() && args.firmware != Some(Firmware::Rust) {
+        let message = "`--glue` is for firmware in Rust, and nothing else has crates";
+        return Err(Diagnostic::without_place(codes::UNKNOWN_WORD, message).help("add `--firmware rust`"));
+    }
+    let glue = args.glue.as_deref().map(firmware::clone).transpose()?;
     let name = format!("{key}.od.yaml");
-    let path = args.out.join(&name);
+    // A project has a directory of its own.
+    let directory = if args.firmware.is_some() { args.out.join(key) } else { args.out.clone() };
+    let path = directory.join(&name);
     if path.symlink_metadata().is_ok() {
         let shown = path.strip_prefix(".").unwrap_or(&path);
         let message = format!("cannot write `{}`: it is there already", file_name::shown(shown));
@@ -65,15 +74,28 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
             Diagnostic::without_place(codes::WRITE_FAILED, message).help("name a directory with `--out`")
         );
     }
-    let objects = count_objects(&name, &text).ok_or_else(|| {
+    let system = compiled(&name, &text).ok_or_else(|| {
         let message = format!("a specification with the key `{key}` does not compile");
         Diagnostic::without_place(codes::BAD_NOTATION, message).help("choose another name")
     })?;
-    write(&args.out, name, text)?;
-    let path = shown_path(path.strip_prefix(".").unwrap_or(&path));
-    Ok(format!(
-        "  {path}  {kind}, {objects} objects\nnext: fill in what is marked with <--, then `odgen build {path} --docs html`\n"
-    ))
+    let objects: usize = system.devices.iter().map(|device| device.objects.len()).sum();
+    let mut files = vec![Artifact { path: name, bytes: text.into_bytes(), purpose: String::new() }];
+    if let Some(firmware) = args.firmware {
+        files.extend(firmware::files(firmware, key, glue.as_deref(), &system));
+    }
+    write_set(&directory, &files, Existing::None).map_err(|error| not_written(&error))?;
+    let shown = |path: &Path| shown_path(path.strip_prefix(".").unwrap_or(path));
+    let path = shown(&path);
+    let specification = format!("  {path}  {kind}, {objects} objects\n");
+    let rest = match args.firmware {
+        Some(firmware) => {
+            let project =
+                files.iter().skip(1).map(|file| format!("  {}\n", shown(&directory.join(&file.path))));
+            project.chain([firmware::next(firmware, &shown(&directory), key, glue.as_deref())]).collect()
+        }
+        None => format!("next: fill in what is marked with <--, then `odgen build {path} --docs html`\n"),
+    };
+    Ok(specification + &rest)
 }
 
 fn check_key(key: &str) -> Result<(), Diagnostic> {
@@ -90,16 +112,10 @@ fn device(key: &str) -> String {
     fill(include_str!("device.od.yaml"), key, &[])
 }
 
-fn count_objects(name: &str, text: &str) -> Option<usize> {
+fn compiled(name: &str, text: &str) -> Option<System> {
     let mut sources = SourceMap::new();
     let root = sources.add(name, text);
-    let system = compile(&mut sources, root, &mut NoFiles).system?;
-    Some(system.devices.iter().map(|device| device.objects.len()).sum())
-}
-
-fn write(directory: &Path, path: String, text: String) -> Result<(), Diagnostic> {
-    let artifact = Artifact { path, bytes: text.into_bytes(), purpose: String::new() };
-    write_set(directory, &[artifact], Existing::None).map(drop).map_err(|error| not_written(&error))
+    compile(&mut sources, root, &mut NoFiles).system
 }
 
 #[cfg(test)]
@@ -107,7 +123,7 @@ mod tests {
     use super::*;
 
     /// Compiles a starter that is filled in.
-    pub(super) fn compiled(key: &str, text: &str) -> od_spec::model::System {
+    pub(super) fn compiled(key: &str, text: &str) -> System {
         let mut sources = SourceMap::new();
         // What is to be filled in counts as filled in.
         let root = sources.add(key, text.replace("# <--", "#"));
