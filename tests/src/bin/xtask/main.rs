@@ -38,6 +38,9 @@ use tools::Tool;
 /// The command line cannot be understood.
 const USAGE: u8 = 2;
 
+/// How many parts run beside those of cargo: a browser and an emulator wait for each other's answers half of the time.
+const BESIDE: usize = 2;
+
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -136,8 +139,8 @@ fn find_tools(parts: &[&Part]) -> BTreeSet<Tool> {
     found
 }
 
-/// Runs the parts: those of cargo one after the other, and at the same time, and then instead of them, the others; what waits most of the time has a
-/// place of its own.
+/// Runs the parts: those of cargo one after the other, and at the same time, and then instead of them, the others; what waits most of the
+/// time has a place of its own.
 fn run_all(parts: &[&'static Part], found: &BTreeSet<Tool>) -> Vec<Row> {
     let of = |turn: Turn| parts.iter().copied().filter(move |part| part.turn == turn);
     prepare(parts);
@@ -158,10 +161,12 @@ fn run_all(parts: &[&'static Part], found: &BTreeSet<Tool>) -> Vec<Row> {
                 drop(waiting.send(run(part, found, Output::Kept(Vec::new()))));
             }
         });
-        scope.spawn(|| {
-            let done = done;
-            run_beside(&mut |row| drop(done.send(row)));
-        });
+        for _ in 0..BESIDE {
+            let done = done.clone();
+            let run_beside = &run_beside;
+            scope.spawn(move || run_beside(&mut |row| drop(done.send(row))));
+        }
+        drop(done);
         let mut rows: Vec<Row> = of(Turn::First).map(|part| print(run(part, found, Output::Shown))).collect();
         run_beside(&mut |row| rows.push(print(row)));
         rows.extend(ended.iter().map(print));

@@ -67,7 +67,7 @@ pub(crate) enum Amount {
 pub(crate) enum Turn {
     /// From the start, one after the other: cargo, which works on all cores.
     First,
-    /// At the same time, one after the other; two at a time when those of cargo have ended.
+    /// At the same time, two at a time; three when those of cargo have ended.
     Beside,
     /// At the same time as all others, one after the other: these wait for each other's messages most of the time.
     Waiting,
