@@ -25,7 +25,7 @@ fn write(arguments: &[String]) -> Result<(), Failure> {
         let n = number.parse()?;
         for (set, patterns) in [("right", RIGHT), ("wrong", WRONG)] {
             for pattern in patterns {
-                let name = format!("{set}: {}.{n}.od.yaml", pattern.name);
+                let name = format!("{set} {}.{n}.od.yaml", pattern.name);
                 std::fs::write(Path::new(directory).join(name), (pattern.make)(n))?;
             }
         }
