@@ -1,7 +1,8 @@
 /*
  * An SDO server, expedited and segmented. The CAN driver calls it with the data of each frame
  * 600h + node-ID, and sends the answer as 580h + node-ID. In place of NULL, an application says
- * whether the device is unlocked, and hears of new values.
+ * whether the device is unlocked, hears of new values, and stores parameters on command (1010h, 1011h);
+ * without it, the answer to these commands is that nothing is stored (0800 0020h).
  */
 #include "valve_od.h"
 

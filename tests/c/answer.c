@@ -47,13 +47,20 @@ static uint32_t accept(void *context, od_row_t row, const uint8_t *data, size_t 
     return veto;
 }
 
+static uint32_t command(void *context, uint16_t index, uint8_t sub)
+{
+    (void)context;
+    note((index == 0x1010U) ? 3U : 4U, sub);
+    return (veto == OD_OK) ? OD_OK : OD_ABORT_HARDWARE;
+}
+
 static void changed(void *context, od_row_t row)
 {
     (void)context;
     note(2U, row);
 }
 
-static const od_application_t application = {&unlocked, is_unlocked, refresh, accept, changed, NULL, NULL};
+static const od_application_t application = {&unlocked, is_unlocked, refresh, accept, command, changed, NULL, NULL};
 
 size_t answer(const uint8_t *request, size_t length, uint8_t *bytes)
 {

@@ -51,17 +51,16 @@ FEWEST, FEWEST_OF_SAMPLE = 7000, 2800  # checks: fewer were not all
 
 
 class Board:
-    """The emulated board with the firmware: its UART is a TCP server."""
+    """The emulated board with the firmware, by the command that starts it: its UART is a TCP server."""
 
-    def __init__(self, program: Path, port: int = 0) -> None:
+    def __init__(self, command: list[str], port: int = 0) -> None:
         # A socket of ours, which is listened to before the emulator is there: a client that connects waits for it.
         with socket.create_server((HOST, port)) as server:
             # Without it, each answer waits for the acknowledgement of the one before. Connections have it from here.
             server.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             self.address = f"{HOST}:{server.getsockname()[1]}"
             uart = ["-chardev", f"socket,id=uart,fd={server.fileno()},server=on,wait=off", "-serial", "chardev:uart"]
-            command = [run.QEMU, *BOARD, *uart, "-kernel", str(program)]
-            self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=[server.fileno()])
+            self.process = subprocess.Popen([*command, *uart], stdin=subprocess.DEVNULL, pass_fds=[server.fileno()])
 
     def raw(self) -> socket.socket:
         from patience import PATIENCE
@@ -88,7 +87,7 @@ def main() -> int:
         toolchain = run.find_toolchain()
         if options.run:
             _, program = run.build(toolchain, FIRMWARE)[PROGRAM]
-            return serve(Board(program, options.run))
+            return serve(Board(emulated(program), options.run))
         faults = measure(toolchain)
         _, program = run.build(toolchain, FIRMWARE)[PROGRAM]
         others = {name: other for name, (_, other) in run.build(toolchain, NODES).items()}
@@ -120,9 +119,13 @@ def serve(board: Board) -> int:
     return 0
 
 
+def emulated(program: Path) -> list[str]:
+    return [run.QEMU, *BOARD, "-kernel", str(program)]
+
+
 @contextmanager
-def running(program: Path) -> Iterator[Board]:
-    board = Board(program)
+def running(command: list[str]) -> Iterator[Board]:
+    board = Board(command)
     try:
         yield board
     finally:
@@ -176,7 +179,7 @@ def check(program: Path, others: dict[str, Path], odgen: Path | None, *, is_samp
         is_demo = name == DEVICE
         if is_sample and not is_demo:
             continue
-        with running(program if is_demo else others[name]) as board:
+        with running(emulated(program if is_demo else others[name])) as board:
             if is_demo:
                 client(f"{name}, UART", lambda: check_text(board.raw()))
             entries(board.address, eds, device, types)
@@ -186,7 +189,7 @@ def check(program: Path, others: dict[str, Path], odgen: Path | None, *, is_samp
                 if odgen:
                     tally.add(f"odgen node and {name}", lambda: check_odgen(odgen.resolve(), f"tcp:{board.address}"))
     if odgen:
-        with tempfile.TemporaryDirectory() as folder, running(others[EVERYTHING]) as board:
+        with tempfile.TemporaryDirectory() as folder, running(emulated(others[EVERYTHING])) as board:
             command = [odgen.resolve(), "build", EVERYTHING_SPECIFICATION, "--out", folder]
             subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
             eds = Path(folder, "eds", f"{EVERYTHING}.eds")

@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 
 use crate::abort::AbortCode;
+use crate::access::command::Command;
 
 /// Something whose entries have names: a dictionary, as its application sees it.
 pub trait Entries: Sized {
@@ -11,7 +12,7 @@ pub trait Entries: Sized {
 }
 
 /// The application's part in accesses over the bus. Every method has a default, so that `&mut ()` is an application that
-/// agrees to everything the dictionary allows, and never unlocks.
+/// agrees to every value that the dictionary allows, carries out no command, and never unlocks.
 pub trait Application<D: Entries> {
     /// Whether the device is unlocked for service, so that locked entries can be written. Never unless overridden.
     fn is_unlocked(&self) -> bool {
@@ -26,9 +27,6 @@ pub trait Application<D: Entries> {
 
     /// The application's veto, after every check of the dictionary has passed. `value` has the length of the entry's type.
     ///
-    /// Commands such as "store parameters" (1010h) are carried out here: their signature was checked, a client is answered
-    /// only when they are done, and a failure is an abort code such as [`AbortCode::HARDWARE`].
-    ///
     /// # Errors
     /// The abort code for the client; the entry keeps its value then.
     fn accept(&mut self, dictionary: &mut D, entry: D::Entry, value: &[u8]) -> Result<(), AbortCode> {
@@ -36,8 +34,17 @@ pub trait Application<D: Entries> {
         Ok(())
     }
 
-    /// Called after an entry got a value over the bus. Of an alias, the entry is its target. Commands (1010h, 1011h) are no
-    /// values; they come to [`accept`](Self::accept) only.
+    /// Carries out a command, "store parameters" (1010h) or "restore defaults" (1011h). Its signature was checked, and the
+    /// client is answered when it is done; a failure is an abort code such as [`AbortCode::HARDWARE`].
+    ///
+    /// # Errors
+    /// The abort code for the client; [`AbortCode::NOT_STORED`] unless overridden.
+    fn command(&mut self, dictionary: &mut D, command: Command) -> Result<(), AbortCode> {
+        let _ = (dictionary, command);
+        Err(AbortCode::NOT_STORED)
+    }
+
+    /// Called after an entry got a value over the bus. Of an alias, the entry is its target.
     fn changed(&mut self, dictionary: &mut D, entry: D::Entry) {
         let _ = (dictionary, entry);
     }

@@ -2,6 +2,7 @@
 
 use crate::abort::AbortCode;
 use crate::access::application::Application;
+use crate::access::command::Command;
 use crate::access::dictionary::Dictionary;
 
 /// A condition between entries, such as thresholds that have to stay in order. It is looked at when it is asked for:
@@ -64,6 +65,10 @@ impl<D: Constrained, A: Application<D>> Application<D> for Consistent<'_, A> {
             return Err(AbortCode::INCOMPATIBLE);
         }
         self.0.accept(dictionary, entry, value)
+    }
+
+    fn command(&mut self, dictionary: &mut D, command: Command) -> Result<(), AbortCode> {
+        self.0.command(dictionary, command)
     }
 
     fn changed(&mut self, dictionary: &mut D, entry: D::Entry) {

@@ -152,7 +152,7 @@ pub trait Dictionary<'t>: Entries {
     /// of the communication objects, the write condition, the application's veto. A refused write changes nothing.
     ///
     /// Returns the entry that has a new value: of an alias, its target. A signature written to 1010h or 1011h is a command
-    /// and no value: the application carries it out in [`Application::accept`], and nothing is stored.
+    /// and no value: the application carries it out in [`Application::command`].
     ///
     /// # Errors
     /// The abort code for the client.
@@ -387,13 +387,13 @@ pub(crate) fn write_row<'t, D: Dictionary<'t>, A: Application<D>>(
         check_condition(dictionary, holder.shared)?;
     }
     let entry = dictionary.entry(holder.row).ok_or(AbortCode::INTERNAL)?;
-    application.accept(dictionary, entry, data)?;
     match effect {
         Effect::Store => {
+            application.accept(dictionary, entry, data)?;
             put(dictionary.image_mut(), holder, data)?;
             application.changed(dictionary, entry);
         }
-        Effect::Command => {}
+        Effect::Command(command) => application.command(dictionary, command)?,
     }
     Ok(entry)
 }

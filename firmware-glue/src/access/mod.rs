@@ -2,6 +2,7 @@
 
 pub(crate) mod application;
 mod check;
+pub(crate) mod command;
 pub(crate) mod communication;
 pub(crate) mod constraint;
 mod corrected;

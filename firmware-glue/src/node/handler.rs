@@ -3,6 +3,7 @@
 use crate::abort::AbortCode;
 use crate::access::application::Application;
 use crate::access::application::Entries;
+use crate::access::command::Command;
 use crate::access::constraint::{Consistent, Constrained};
 use crate::bus::node_id::NodeId;
 use crate::emcy::{Emergency, EmergencyProducer};
@@ -114,6 +115,10 @@ impl<D: Entries, A: Application<D>, const ERRORS: usize> Application<D> for With
 
     fn accept(&mut self, dictionary: &mut D, entry: D::Entry, value: &[u8]) -> Result<(), AbortCode> {
         self.application.accept(dictionary, entry, value)
+    }
+
+    fn command(&mut self, dictionary: &mut D, command: Command) -> Result<(), AbortCode> {
+        self.application.command(dictionary, command)
     }
 
     fn changed(&mut self, dictionary: &mut D, entry: D::Entry) {

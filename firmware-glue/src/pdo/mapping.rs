@@ -1,7 +1,7 @@
 //! The mapping of a PDO, resolved: where its values lie, so that a frame needs no search.
 //!
 //! The mapping parameters in the dictionary stay the only description. A client, a store or the firmware changes them without a report
-//! to the engine, so they are compared with those that were resolved whenever the mapping is used, two at a time.
+//! to the engine, so they are compared with those that were resolved whenever the mapping is used.
 
 use crate::abort::AbortCode;
 use crate::access::application::Application;
@@ -11,7 +11,7 @@ use crate::pdo::{Frame, PdoError, Received, Refused, get_bits, put_bits};
 use crate::table::mapping::{FRAME_BITS, Mapped, width};
 use crate::table::stored::at_row;
 use crate::table::{NONE, Pdo, Place, Row};
-use crate::value::image::{get, get_u8, get_u32, get_u64};
+use crate::value::image::{get, get_u8, get_u32};
 use crate::value::number::unsigned;
 
 /// Entries that are resolved at the same time: as many as a frame has bytes. Of a PDO with more, of single bits, they take turns.
@@ -29,8 +29,8 @@ pub(crate) struct Mapping {
     packing: Packing,
     watched: Option<Watched>,
     cob_id: u32,
-    /// The mapping parameters, two in each.
-    parameters: [u64; KEPT as usize / 2],
+    /// The mapping parameters, as they are in the image.
+    parameters: [[u8; 4]; KEPT as usize],
     fields: [Field; KEPT as usize],
     /// Where each byte of a frame is in the image.
     places: [u16; KEPT as usize],
@@ -92,7 +92,7 @@ impl Mapping {
         packing: Packing::Values,
         watched: None,
         cob_id: 0,
-        parameters: [0; KEPT as usize / 2],
+        parameters: [[0; 4]; KEPT as usize],
         fields: [Field::NONE; KEPT as usize],
         places: [0; KEPT as usize],
     };
@@ -253,15 +253,11 @@ impl Mapping {
         if number != NONE && get_u8(image, number.into()) != self.count {
             return false;
         }
-        // Two at a time: for a few, a call of `memcmp` takes longer.
-        let mut place = usize::from(parameters);
-        for kept in if parameters == NONE { &[] } else { first(&self.parameters, self.count.div_ceil(2)) } {
-            if get_u64(image, place) != *kept {
-                return false;
-            }
-            place += 8;
-        }
-        true
+        // One at a time: for a few, a call of `memcmp` takes longer.
+        parameters_at(image, parameters)
+            .iter()
+            .zip(first(&self.parameters, self.count))
+            .all(|(now, kept)| now == kept)
     }
 
     #[cold]
@@ -284,10 +280,8 @@ impl Mapping {
         }
         self.watched = watched(dictionary, pdo, count);
         let parameters = self.watched.map_or(NONE, |watched| watched.parameters);
-        for (kept, place) in self.parameters.iter_mut().zip((usize::from(parameters)..).step_by(8)) {
-            // What follows the last one is looked at, too: the mapping is resolved again when it changes.
-            *kept = get_u64(dictionary.image(), place);
-        }
+        let parameters = parameters_at(dictionary.image(), parameters).iter();
+        self.parameters.iter_mut().zip(parameters).for_each(|(kept, now)| *kept = *now);
         Ok(())
     }
 
@@ -331,6 +325,12 @@ impl Mapping {
 #[inline]
 fn first<T>(list: &[T], count: u8) -> &[T] {
     list.get(..usize::from(count)).unwrap_or(list)
+}
+
+/// The mapping parameters from a place in the image on, and what follows them; none at [`NONE`].
+#[inline]
+fn parameters_at(image: &[u8], place: u16) -> &[[u8; 4]] {
+    image.get(usize::from(place)..).unwrap_or_default().as_chunks().0
 }
 
 /// Data with zeros after them.
@@ -501,6 +501,24 @@ mod tests {
             set(&mut device, 0x1800, 1, 0x8000_0181);
             assert_eq!(tpdo.pack(&mut device, &mut ()), Err(PdoError::NotValid));
         }
+    }
+
+    /// The parameter may be the last value of all.
+    #[test]
+    fn a_parameter_at_the_end_of_the_image_is_compared() {
+        let mut device = dictionary(&[
+            value(0x1100, 0, 1, 0x11),
+            value(0x1101, 0, 1, 0x22),
+            value(0x1400, 0, 1, 1),
+            value(0x1400, 1, 4, 0x205),
+            value(0x1600, 0, 1, 1),
+            value(0x1600, 1, 4, 0x1100_0008),
+        ]);
+        let mut rpdo = Rpdo::new(device.table(), 1).expect("RPDO 1");
+        rpdo.unpack(&mut device, &[7], &mut ()).expect("a mapping");
+        set(&mut device, 0x1600, 1, 0x1101_0008);
+        rpdo.unpack(&mut device, &[8], &mut ()).expect("a mapping");
+        assert_eq!((read(&device, 0x1100), read(&device, 0x1101)), ([7].to_vec(), [8].to_vec()));
     }
 
     #[test]

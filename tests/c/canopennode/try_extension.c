@@ -250,6 +250,15 @@ int main(void) {
     EXPECT(OD_addNodeId(7U), ODR_OK);
     EXPECT(OD_RAM.x200A_identifier, 0x123);
 
+    /* A command is refused until the stack's storage has the object. */
+    EXPECT(set(0x1010U, 1U, "save", 4U), ODR_DATA_TRANSF);
+    EXPECT(set(0x1011U, 1U, "load", 4U), ODR_DATA_TRANSF);
+    EXPECT(get_u32(0x1010U, 1U), 1);
+    own.write = OD_writeOriginal;
+    EXPECT(OD_extension_init(OD_ENTRY_H1010, &own), ODR_OK);
+    OD_extendAll(is_unlocked);
+    EXPECT(OD_ENTRY_H1010->extension == &own, 1);
+
     /* Storage: what 1010h.2 and .3 store; 1010h.4 stores nothing. */
     EXPECT(sizeof(storage) / sizeof(storage[0]), 3);
     EXPECT((storage[0].addr == &OD_PERSIST_COMM) && (storage[0].subIndexOD == 2U) && (storage[0].attr == 5U), 1);

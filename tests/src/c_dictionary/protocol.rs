@@ -1,6 +1,7 @@
 //! The requests of `tests/c/answer.h`, answered by a dictionary in Rust.
 
 use firmware_glue::pdo::{self, PdoError};
+use firmware_glue::storage::Command;
 use firmware_glue::{AbortCode, Application, Constrained, Dictionary, Storage};
 
 /// A dictionary in Rust, asked as the one in C is.
@@ -84,6 +85,12 @@ impl<'t, D: Dictionary<'t>> Application<D> for Recorder {
     fn accept(&mut self, dictionary: &mut D, entry: D::Entry, _: &[u8]) -> Result<(), AbortCode> {
         self.note(1, dictionary.row(entry));
         if self.refuses { Err(AbortCode::LOCAL_CONTROL) } else { Ok(()) }
+    }
+
+    fn command(&mut self, _: &mut D, command: Command) -> Result<(), AbortCode> {
+        let (Command::Save(sub) | Command::Restore(sub)) = command;
+        self.note(if matches!(command, Command::Save(_)) { 3 } else { 4 }, sub.into());
+        if self.refuses { Err(AbortCode::HARDWARE) } else { Ok(()) }
     }
 
     fn changed(&mut self, dictionary: &mut D, entry: D::Entry) {

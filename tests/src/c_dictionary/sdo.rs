@@ -3,6 +3,7 @@
 use firmware_glue::clock::Instant;
 use firmware_glue::frame::Frame;
 use firmware_glue::sdo::{Channel, SdoServer};
+use firmware_glue::storage::Command;
 use firmware_glue::{Dictionary, EntryId, NodeId};
 
 use super::trial::Exchange;
@@ -51,7 +52,11 @@ impl<'t, D: Dictionary<'t>> SdoTrial<D> {
                     self.write(id, &bytes, false);
                 }
             }
-            self.write(id, &value, true);
+            match Command::of(id) {
+                Some(Command::Save(_)) => self.write(id, b"save", true),
+                Some(Command::Restore(_)) => self.write(id, b"load", true),
+                None => self.write(id, &value, true),
+            }
             self.read(id);
             self.mistakes(id);
         }

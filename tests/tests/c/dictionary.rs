@@ -10,7 +10,7 @@ use od_bus::runtime::{self, LiveDictionary};
 use od_generated::{fullmo::Fullmo, pmc::Pmc, pmm::Pmm};
 use od_spec::diag::Diagnostics;
 use od_tests::c_dictionary::{
-    Compiler, Host, Reference, SDO_SERVER, SdoTrial, Trial, Written, compare, write, write_text,
+    Compiler, Exchange, Host, Reference, SDO_SERVER, SdoTrial, Trial, Written, compare, write, write_text,
 };
 
 #[allow(
@@ -121,6 +121,22 @@ fn the_sdo_server_of_the_book_answers_as_that_in_rust() {
     let exchange = SdoTrial::new(dictionary, 5).unwrap().exchange();
     assert!(exchange.len() > 500, "{} frames", exchange.len());
     let host = Host::build_with(&cc(), &directory, &devices[0], &SDO_SERVER).unwrap();
+    compare(&exchange, &host.ask(&exchange).unwrap()).unwrap();
+}
+
+/// A client whose command succeeds relies on the memory.
+#[test]
+fn the_sdo_server_of_the_book_stores_nothing_and_says_so() {
+    let directory = directory("sdo-save");
+    let Written { devices, .. } = write("tests/c/valve.od.yaml", &directory).unwrap();
+    let host = Host::build_with(&cc(), &directory, &devices[0], &SDO_SERVER).unwrap();
+    let request =
+        |request: &[u8], answer: &[u8]| Exchange { request: request.to_vec(), answer: answer.to_vec() };
+    let exchange = [
+        request(&[5], &[]),
+        request(b"\x23\x10\x10\x01save", &[0x80, 0x10, 0x10, 1, 0x20, 0, 0, 8]),
+        request(b"\x23\x11\x10\x01load", &[0x80, 0x11, 0x10, 1, 0x20, 0, 0, 8]),
+    ];
     compare(&exchange, &host.ask(&exchange).unwrap()).unwrap();
 }
 

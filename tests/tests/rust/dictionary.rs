@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use firmware_glue::pdo::{self, PdoError, Refused};
+use firmware_glue::storage::Command;
 use firmware_glue::{
     AbortCode, Application, Constrained, Dictionary, Entries, EntryId, OtherLayout, Quantity, Special,
     Storage, Time,
@@ -35,6 +36,7 @@ mod special_values {
 #[derive(Default)]
 struct Log<E> {
     unlocked: bool,
+    commands: Vec<Command>,
     changed: Vec<E>,
     veto: Option<AbortCode>,
 }
@@ -46,13 +48,17 @@ impl<D: Entries> Application<D> for Log<D::Entry> {
     fn accept(&mut self, _: &mut D, _: D::Entry, _: &[u8]) -> Result<(), AbortCode> {
         self.veto.map_or(Ok(()), Err)
     }
+    fn command(&mut self, _: &mut D, command: Command) -> Result<(), AbortCode> {
+        self.commands.push(command);
+        self.veto.map_or(Ok(()), Err)
+    }
     fn changed(&mut self, _: &mut D, entry: D::Entry) {
         self.changed.push(entry);
     }
 }
 
 fn log<E>() -> Log<E> {
-    Log { unlocked: false, changed: Vec::new(), veto: None }
+    Log { unlocked: false, commands: Vec::new(), changed: Vec::new(), veto: None }
 }
 
 fn read<'t, D: Dictionary<'t>>(dictionary: &D, index: u16, sub: u8) -> Result<i64, AbortCode> {
@@ -364,13 +370,17 @@ fn communication_objects_keep_their_own_rules() {
     assert_eq!(write(0x1005, 0, 0x0000_0080, 4), Ok(()));
     assert_eq!(write(0x1005, 0, 0x2000_0080, 4), Err(AbortCode::INVALID_VALUE));
     assert_eq!(write(0x1005, 0, 0x0000_0101, 4), Err(AbortCode::INVALID_VALUE));
-    // 1010h, 1011h take their signature, and store nothing.
-    assert_eq!(write(0x1010, 1, u64::from(u32::from_le_bytes(*b"save")), 4), Ok(()));
-    assert_eq!(write(0x1010, 1, u64::from(u32::from_le_bytes(*b"load")), 4), Err(AbortCode::NOT_STORED));
-    assert_eq!(write(0x1011, 1, u64::from(u32::from_le_bytes(*b"load")), 4), Ok(()));
-    assert_eq!(write(0x1011, 1, 0, 4), Err(AbortCode::NOT_STORED));
+    // 1010h, 1011h take their signature, from an application that carries the command out.
+    for (index, signature) in [(0x1010, b"save"), (0x1011, b"load")] {
+        let signature = u32::from_le_bytes(*signature).into();
+        assert_eq!(write(index, 1, signature, 4), Err(AbortCode::NOT_STORED), "nothing stores it");
+    }
     let mut reported = log();
+    assert_eq!(od.write(0x1010, 1, b"load", &mut reported), Err(AbortCode::NOT_STORED));
+    assert_eq!(od.write(0x1011, 1, &[0; 4], &mut reported), Err(AbortCode::NOT_STORED));
     assert!(od.write(0x1010, 1, b"save", &mut reported).is_ok());
+    assert!(od.write(0x1011, 2, b"load", &mut reported).is_ok());
+    assert_eq!(reported.commands, [Command::Save(1), Command::Restore(2)]);
     assert_eq!(reported.changed, [], "a command is no value");
     reported.veto = Some(AbortCode::HARDWARE);
     assert_eq!(

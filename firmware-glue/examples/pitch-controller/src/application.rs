@@ -10,7 +10,7 @@ use firmware_glue::node::{NodeHandler, Reset};
 use firmware_glue::pdo::engine::PdoHandler;
 use firmware_glue::state_machine::{Cause, StateHandler, StateMachine};
 use firmware_glue::storage::{ALL, Command, ParameterStore};
-use firmware_glue::{AbortCode, Application, Dictionary, NodeId, Storage};
+use firmware_glue::{AbortCode, Application, NodeId, Storage};
 
 use crate::flash::RamFlash;
 use crate::pmc::machines::{PowerDriveCommand, PowerDriveState, PowerDriveTransition as Transition};
@@ -183,11 +183,8 @@ impl StateHandler<PowerDriveState> for Guards {
 }
 
 impl Application<Pmc> for Drive<'_> {
-    fn accept(&mut self, od: &mut Pmc, entry: Entry, _: &[u8]) -> Result<(), AbortCode> {
-        match Command::of(od.table().id(od.row(entry))) {
-            Some(command) => self.store.command(od, command).map(drop).map_err(AbortCode::from),
-            None => Ok(()),
-        }
+    fn command(&mut self, od: &mut Pmc, command: Command) -> Result<(), AbortCode> {
+        self.store.command(od, command).map(drop).map_err(AbortCode::from)
     }
 
     fn changed(&mut self, od: &mut Pmc, entry: Entry) {

@@ -4,6 +4,7 @@ pub(crate) mod cob_id;
 mod pdo;
 
 use crate::abort::AbortCode;
+use crate::access::command::Command;
 use crate::access::communication::cob_id::{
     NOT_VALID, PRODUCER, check_client_cob_id, check_cob_id, check_produced,
 };
@@ -26,14 +27,9 @@ pub(crate) enum Before {
 pub(crate) enum Effect {
     /// The entry takes it.
     Store,
-    /// It is a command for the application, such as the signature of 1010h; nothing is stored.
-    Command,
+    /// It is a command for the application; the entry keeps its value.
+    Command(Command),
 }
-
-/// "save", the signature of 1010h.
-const SAVE: u32 = u32::from_le_bytes(*b"save");
-/// "load", the signature of 1011h.
-const LOAD: u32 = u32::from_le_bytes(*b"load");
 
 /// Checks a value of the right type and within its limits for the row of a communication object.
 #[inline(never)]
@@ -60,8 +56,7 @@ pub(crate) fn check(
             return Err(AbortCode::INVALID_VALUE);
         }
         (0x1005 | 0x1012, 0) => check_produced(old(0), new)?,
-        (0x1010, 1..) => return command(new, SAVE),
-        (0x1011, 1..) => return command(new, LOAD),
+        (0x1010 | 0x1011, 1..) => return Command::given(EntryId { index, sub }, new).map(Effect::Command),
         (0x1014, 0) | (0x1028, 1..) | (0x1200..0x1280, 1 | 2) => check_cob_id(old(NOT_VALID), new)?,
         (0x1280..0x1300, 1 | 2) => check_client_cob_id(sub, old(NOT_VALID), new)?,
         // The node-ID of the other side of an SDO channel, and reactions that CiA 301 reserves.
@@ -78,11 +73,6 @@ pub(crate) fn check(
         _ => {}
     }
     Ok(Effect::Store)
-}
-
-/// 1010h, 1011h: nothing but a signature can be written.
-fn command(new: u32, signature: u32) -> Result<Effect, AbortCode> {
-    if new == signature { Ok(Effect::Command) } else { Err(AbortCode::NOT_STORED) }
 }
 
 /// 1016h: bits 16 to 23 node, bits 0 to 15 time in ms; a node is watched once.

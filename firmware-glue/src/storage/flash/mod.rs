@@ -33,11 +33,8 @@
 //! }
 //!
 //! impl<'t, D: Dictionary<'t>, F: NorFlash> Application<D> for Drive<F> {
-//!     fn accept(&mut self, od: &mut D, entry: D::Entry, _: &[u8]) -> Result<(), AbortCode> {
-//!         match Command::of(od.info(entry).id()) {
-//!             Some(command) => self.store.command(od, command).map(drop).map_err(AbortCode::from),
-//!             None => Ok(()),
-//!         }
+//!     fn command(&mut self, od: &mut D, command: Command) -> Result<(), AbortCode> {
+//!         self.store.command(od, command).map(drop).map_err(AbortCode::from)
 //!     }
 //! }
 //! ```
@@ -55,9 +52,9 @@ use embedded_storage::nor_flash::NorFlash;
 pub use error::{BadArea, StoreError};
 pub use loaded::{Copies, Loaded, Outcome};
 
+use crate::access::command::Command;
 use crate::access::dictionary::Dictionary;
 use crate::bus::node_id::NodeId;
-use crate::storage::command::Command;
 use crate::storage::flash::groups::{PerGroup, STORED};
 use crate::storage::flash::record::{EMPTY_RECORD, Part, Reader, SECTION, Section, Slot, Unreadable, Writer};
 use crate::table::{Region, Storage};

@@ -86,7 +86,7 @@ impl Host {
 }
 
 impl Application<LiveDictionary<'_>> for Host {
-    /// Looks at constraints, where it is to; carries out "store parameters" and "restore defaults", and commands for programs.
+    /// Looks at constraints, where it is to; carries out commands for programs.
     fn accept(
         &mut self,
         dictionary: &mut LiveDictionary<'_>,
@@ -98,8 +98,10 @@ impl Application<LiveDictionary<'_>> for Host {
             Checks::Constraints if dictionary.stays_consistent(entry, value) => {}
             Checks::Constraints => return Err(AbortCode::INCOMPATIBLE),
         }
-        self.programs.accept(entry, value)?;
-        let Some(command) = Command::of(entry) else { return Ok(()) };
+        self.programs.accept(entry, value)
+    }
+
+    fn command(&mut self, dictionary: &mut LiveDictionary<'_>, command: Command) -> Result<(), AbortCode> {
         for storage in command.groups() {
             match command {
                 Command::Save(_) => {
@@ -116,7 +118,6 @@ impl Application<LiveDictionary<'_>> for Host {
     }
 
     fn changed(&mut self, dictionary: &mut LiveDictionary<'_>, entry: EntryId) {
-        // A command is not a value.
         self.programs.report(dictionary);
         self.changed.push(entry);
     }

@@ -91,6 +91,9 @@ const PAPER: &[Tool] = &[Tool::Python, Tool::Pdftotext, Tool::Pango];
 const THUMB: &[Tool] = &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker];
 const WINDOWS: &[Tool] = &[Tool::WindowsTarget, Tool::Mingw, Tool::Wine];
 const EMULATOR: &[Tool] = &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu];
+const STARTER: &[Tool] = &[Tool::Python, Tool::Make, Tool::Clang, Tool::ThumbLinker, Tool::Qemu];
+const STARTERS: &[Tool] =
+    &[Tool::Python, Tool::Make, Tool::Clang, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu];
 
 /// A part of the Rust tests in this tier; other parts change what differs.
 const fn rust(
@@ -124,7 +127,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 50] = [
+pub(crate) static PARTS: [Part; 52] = [
     rust("form", "form", Tier::Check, form::check),
     rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
@@ -227,6 +230,14 @@ pub(crate) static PARTS: [Part; 50] = [
         needs: &[Tool::ThumbLinker, Tool::Qemu, Tool::Clang],
         ..rust("plain-c", "dictionaries in plain C", Tier::Gate, |runner| {
             plain_c::try_all(runner, Amount::Sample)
+        })
+    },
+    Part {
+        area: Area::Firmware,
+        turn: Turn::Beside,
+        needs: STARTER,
+        ..rust("starter", "firmware of odgen new in an emulator", Tier::Gate, |runner| {
+            readers::new_firmware(runner, Amount::Sample)
         })
     },
     Part {
@@ -372,6 +383,17 @@ pub(crate) static PARTS: [Part; 50] = [
             "firmware of all devices in an emulator",
             Tier::Long("tries the entries of three devices in the same way; the gate tries those of one"),
             |runner| readers::demo_firmware(runner, Amount::All),
+        )
+    },
+    Part {
+        area: Area::Firmware,
+        turn: Turn::Beside,
+        needs: STARTERS,
+        ..rust(
+            "long-starter",
+            "firmware of odgen new in Rust in an emulator",
+            Tier::Long("compiles a build script with all of od-gen; the gate tries those in C"),
+            |runner| readers::new_firmware(runner, Amount::All),
         )
     },
     Part {

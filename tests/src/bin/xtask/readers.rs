@@ -310,6 +310,14 @@ pub(crate) fn sdo_client(runner: &mut Runner, amount: Amount) -> Result<(), Fail
     Ok(())
 }
 
+/// What `odgen new --firmware` writes, built and asked.
+pub(crate) fn new_firmware(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
+    let odgen = beside("odgen")?;
+    runner.run(
+        Command::new("python3").arg("tests/thumb/starter.py").args(sample(amount)).arg("--odgen").arg(&odgen),
+    )
+}
+
 /// The same client and `odgen node`, against the demo firmware on an emulated Cortex-M.
 pub(crate) fn demo_firmware(runner: &mut Runner, amount: Amount) -> Result<(), Failure> {
     let Some(python) = python_of_readers(runner) else { return Ok(()) };

@@ -30,6 +30,7 @@ pub(crate) enum Tool {
     ThumbTarget,
     ThumbLinker,
     Qemu,
+    Make,
     /// A second compiler of C, which compiles for other platforms, too; the first is the one that Rust links with.
     Clang,
     WindowsTarget,
@@ -46,7 +47,7 @@ pub(crate) enum Tool {
 }
 
 impl Tool {
-    pub(crate) const ALL: [Tool; 15] = [
+    pub(crate) const ALL: [Tool; 16] = [
         Tool::Python,
         Tool::Node,
         Tool::Chromium,
@@ -55,6 +56,7 @@ impl Tool {
         Tool::ThumbTarget,
         Tool::ThumbLinker,
         Tool::Qemu,
+        Tool::Make,
         Tool::Clang,
         Tool::WindowsTarget,
         Tool::Mingw,
@@ -74,6 +76,7 @@ impl Tool {
             Tool::ThumbTarget => "Rust's target thumbv7em-none-eabi",
             Tool::ThumbLinker => "a linker for it: rust-lld, which rustup's Rust has, or arm-none-eabi-ld",
             Tool::Qemu => "qemu-system-arm",
+            Tool::Make => "make",
             Tool::Clang => "clang",
             Tool::WindowsTarget => "Rust's target x86_64-pc-windows-gnu",
             Tool::Mingw => "mingw-w64",
@@ -100,6 +103,7 @@ impl Tool {
             ],
             Tool::ThumbLinker => &["apt-get install binutils-arm-none-eabi"],
             Tool::Qemu => &["apt-get install qemu-system-arm"],
+            Tool::Make => &["apt-get install make"],
             Tool::Clang => &["apt-get install clang"],
             Tool::WindowsTarget => &["rustup target add x86_64-pc-windows-gnu"],
             Tool::Mingw => &["apt-get install gcc-mingw-w64-x86-64"],
@@ -129,6 +133,7 @@ impl Tool {
             Tool::ThumbTarget => has_target(),
             Tool::ThumbLinker => has_linker(),
             Tool::Qemu => is_in_path("qemu-system-arm"),
+            Tool::Make => is_in_path("make"),
             Tool::Clang => is_in_path("clang"),
             Tool::WindowsTarget => has_target_of_rustc(WINDOWS_TARGET),
             Tool::Mingw => is_in_path("x86_64-w64-mingw32-gcc"),

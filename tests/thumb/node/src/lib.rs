@@ -32,11 +32,8 @@ struct Bench<'m> {
 }
 
 impl<D: Dictionary<'static>> Application<D> for Bench<'_> {
-    fn accept(&mut self, od: &mut D, entry: D::Entry, _: &[u8]) -> Result<(), AbortCode> {
-        match Command::of(od.table().id(od.row(entry))) {
-            Some(command) => self.store.command(od, command).map(drop).map_err(AbortCode::from),
-            None => Ok(()),
-        }
+    fn command(&mut self, od: &mut D, command: Command) -> Result<(), AbortCode> {
+        self.store.command(od, command).map(drop).map_err(AbortCode::from)
     }
 
     fn read_domain(

@@ -483,10 +483,29 @@ static ODR_t write_ruled(OD_stream_t *stream, const void *buf, OD_size_t count, 
 /* That of all objects with rules, except those of which a TPDO can be requested. */
 static OD_extension_t ruled = {.object = NULL, .read = read_ruled, .write = write_ruled};
 
+/* "Store parameters" and "restore defaults" before the stack's storage has them: no client hears that something is stored where nothing is. */
+static ODR_t refuse_command(OD_stream_t *stream, const void *buf, OD_size_t count, OD_size_t *countWritten) {
+    (void)stream;
+    (void)buf;
+    (void)count;
+    (void)countWritten;
+    return ODR_DATA_TRANSF;
+}
+
+static OD_extension_t commands = {.object = NULL, .read = OD_readOriginal, .write = refuse_command};
+
+static void refuse_commands(OD_entry_t *entry) {
+    if ((entry != NULL) && (entry->extension == NULL)) {
+        (void)OD_extension_init(entry, &commands);
+    }
+}
+
 void OD_extendAll(OD_isUnlocked_t isUnlocked) {
     uint16_t at;
 
     is_unlocked = isUnlocked;
+    refuse_commands(OD_find(OD, 0x1010U));
+    refuse_commands(OD_find(OD, 0x1011U));
     for (at = 0U; at < OD_ruledObjectsCount; at++) {
         OD_extensionsBehind[at] = NULL;
         (void)OD_extension_init(OD_find(OD, OD_ruledObjects[at].index), &ruled);

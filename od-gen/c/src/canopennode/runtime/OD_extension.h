@@ -25,7 +25,7 @@ typedef bool_t (*OD_isUnlocked_t)(void);
  *
  * Every write that is not one of the original is held to the rules: those by SDO, by RPDO, and by `OD_set_u8` and its like without `odOrig`. What an RPDO carries
  * and is refused is left out. Objects that the stack extends itself (1003h, 1005h, 100Ch, 100Dh, 1010h, 1011h, 1012h, 1014h to 1017h, 1019h, 1200h to
- * 13FFh, 1400h to 1BFFh) have the stack's rules and no others.
+ * 13FFh, 1400h to 1BFFh) have the stack's rules and no others. Until its storage is initialised, commands of 1010h and 1011h are refused (0800 0020h).
  */
 void OD_extendAll(OD_isUnlocked_t isUnlocked);
 

@@ -16,6 +16,7 @@
 #define FRAME (0x3FFFFFFFUL)
 #define SAVE (0x65766173UL)
 #define LOAD (0x64616F6CUL)
+#define MOST_COMMANDS (127U)
 #define RECEIVE (0x1400U)
 #define TRANSMIT (0x1800U)
 #define MAPPING (0x200U)
@@ -831,11 +832,11 @@ static uint32_t check_pdo_mapping(
     return (sum > FRAME_BITS) ? OD_ABORT_PDO_LENGTH : OD_OK;
 }
 
-/** Nothing but a signature can be written to 1010h and 1011h, and nothing is stored. */
-static uint32_t check_command(uint32_t value, uint32_t signature, bool *is_command)
+/** Nothing but a signature can be written to 1010h and 1011h, whose entries keep their values. */
+static uint32_t check_command(uint16_t index, uint8_t sub, uint32_t value, bool *is_command)
 {
     *is_command = true;
-    return (value == signature) ? OD_OK : OD_ABORT_NOT_STORED;
+    return ((sub <= MOST_COMMANDS) && (value == ((index == 0x1010U) ? SAVE : LOAD))) ? OD_OK : OD_ABORT_NOT_STORED;
 }
 
 /** Checks a value of the right type and within its limits for a communication object. */
@@ -872,7 +873,7 @@ static uint32_t check_communication(
         return check_produced(before, value);
     }
     if (((index == 0x1010U) || (index == 0x1011U)) && (sub != 0U)) {
-        return is_present ? check_command(value, (index == 0x1010U) ? SAVE : LOAD, is_command) : OD_OK;
+        return is_present ? check_command(index, sub, value, is_command) : OD_OK;
     }
     if (((index == 0x1014U) && (sub == 0U)) || ((index == 0x1028U) && (sub != 0U))) {
         return check_cob_id(before, value);
@@ -1023,6 +1024,36 @@ static bool stays_consistent(
     return true;
 }
 
+/** Has the application carry out a command: no client hears that something is stored where nothing is. */
+static uint32_t carry_out(const od_table_t *table, od_row_t row, const od_application_t *application)
+{
+    uint16_t index = 0U;
+    uint8_t sub = 0U;
+    uint32_t code = OD_ABORT_NOT_STORED;
+    (void)od_id(table, row, &index, &sub);
+    if ((application != NULL) && (application->command != NULL)) {
+        code = application->command(application->context, index, sub);
+    }
+    return code;
+}
+
+/** Puts a value that passed every check, unless the application refuses it. */
+static uint32_t take_value(
+    uint8_t *image, od_found_t holder, const uint8_t *data, size_t length, const od_application_t *application)
+{
+    uint32_t code = OD_OK;
+    if ((application != NULL) && (application->accept != NULL)) {
+        code = application->accept(application->context, holder.row, data, length);
+    }
+    if (code == OD_OK) {
+        put(image, holder, data, length);
+        if ((application != NULL) && (application->changed != NULL)) {
+            application->changed(application->context, holder.row);
+        }
+    }
+    return code;
+}
+
 /** Checks and writes the value of an entry whose access is settled. */
 static uint32_t write_row(
     const od_table_t *table,
@@ -1065,17 +1096,14 @@ static uint32_t write_row(
     if ((code == OD_OK) && (holder.row != found.row)) {
         code = check_condition(table, image, holder.shared);
     }
-    if ((code == OD_OK) && consistent && !stays_consistent(table, image, holder, held, held_length)) {
+    if (code != OD_OK) {
+        /* Refused. */
+    } else if (is_command) {
+        code = carry_out(table, holder.row, application);
+    } else if (consistent && !stays_consistent(table, image, holder, held, held_length)) {
         code = OD_ABORT_INCOMPATIBLE;
-    }
-    if ((code == OD_OK) && (application != NULL) && (application->accept != NULL)) {
-        code = application->accept(application->context, holder.row, held, held_length);
-    }
-    if ((code == OD_OK) && !is_command) {
-        put(image, holder, held, held_length);
-        if ((application != NULL) && (application->changed != NULL)) {
-            application->changed(application->context, holder.row);
-        }
+    } else {
+        code = take_value(image, holder, held, held_length, application);
     }
     return code;
 }

@@ -321,8 +321,9 @@ static inline const uint8_t *od_value_bytes(const od_value_t *value)
 }
 
 /**
- * The application's part in accesses over the bus. A function that is NULL agrees; NULL in place of
- * the structure is an application that agrees to everything, and never unlocks. `context` is passed on.
+ * The application's part in accesses over the bus. A function that is NULL agrees to values, and
+ * refuses what it would have to do; NULL in place of the structure is an application without functions,
+ * which never unlocks. `context` is passed on.
  */
 typedef struct {
     void *context;
@@ -332,9 +333,14 @@ typedef struct {
     void (*refresh)(void *context, od_row_t row);
     /**
      * The veto, when every check of the dictionary has passed: OD_OK, or the abort code for the
-     * client. Commands (1010h, 1011h) are carried out here.
+     * client.
      */
     uint32_t (*accept)(void *context, od_row_t row, const uint8_t *data, size_t length);
+    /**
+     * Carries out "store parameters" (index 1010h) or "restore defaults" (1011h), whose signature was
+     * checked: OD_OK when it is done. NULL refuses them (OD_ABORT_NOT_STORED).
+     */
+    uint32_t (*command)(void *context, uint16_t index, uint8_t sub);
     /** An entry got a value over the bus. Of an alias, the entry is its target. */
     void (*changed)(void *context, od_row_t row);
     /** Reads a DOMAIN from an offset on; `length` is the room, and then the number of bytes, 0 at the end. */

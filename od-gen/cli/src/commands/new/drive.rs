@@ -150,7 +150,10 @@ pub(super) fn list(modes: &[&Mode]) -> String {
 }
 
 /// A starter for a drive with these modes.
-pub(super) fn specification(key: &str, modes: &[&Mode]) -> String {
+///
+/// # Errors
+/// A template that is wrong.
+pub(super) fn specification(key: &str, modes: &[&Mode]) -> Result<String, Diagnostic> {
     let features = modes.iter().map(|mode| mode.feature);
     let beside = without_repetition(modes.iter().flat_map(|mode| mode.beside.iter().copied()));
     let supported = modes.iter().fold(0_u32, |bits, mode| bits | 1 << mode.bit);
@@ -161,17 +164,14 @@ pub(super) fn specification(key: &str, modes: &[&Mode]) -> String {
         include_str!("drive.od.yaml"),
         key,
         &[
-            ("<modes>", &items(features)),
-            ("<also>", &items(beside.into_iter())),
-            (
-                "<kind>",
-                if modes.iter().all(|mode| mode.short == "vl") { "0x0001_0192" } else { "0x0002_0192" },
-            ),
-            ("<example>", modes.first().map_or("", |mode| mode.example)),
-            ("<mode>", &modes.first().map_or(0, |mode| mode.number()).to_string()),
-            ("<supported>", &format!("0x{supported:04X}")),
-            ("<receive>", &pdos(several.then_some("Modes of operation"), "Controlword", &set_points)),
-            ("<transmit>", &pdos(several.then_some("Modes of operation display"), "Statusword", &actuals)),
+            ("modes", &items(features)),
+            ("also", &items(beside.into_iter())),
+            ("kind", if modes.iter().all(|mode| mode.short == "vl") { "0x0001_0192" } else { "0x0002_0192" }),
+            ("example", modes.first().map_or("", |mode| mode.example)),
+            ("mode", &modes.first().map_or(0, |mode| mode.number()).to_string()),
+            ("supported", &format!("0x{supported:04X}")),
+            ("receive", &pdos(several.then_some("Modes of operation"), "Controlword", &set_points)),
+            ("transmit", &pdos(several.then_some("Modes of operation display"), "Statusword", &actuals)),
         ],
     )
 }
@@ -215,7 +215,7 @@ mod tests {
         for first in &MODES {
             for second in &MODES {
                 let modes = modes(&[first.short.to_owned(), second.feature.to_owned()]).expect("modes");
-                let system = compiled("drive", &specification("drive", &modes));
+                let system = compiled("drive", &specification("drive", &modes).unwrap());
                 let supported =
                     system.devices[0].objects[&od_spec::model::Index(0x6502)].entries[0].default.clone();
                 let bits = 1_i128 << first.bit | 1 << second.bit;
@@ -227,7 +227,7 @@ mod tests {
     #[test]
     fn all_modes_together_compile_clean() {
         let all: Vec<&Mode> = MODES.iter().collect();
-        let system = compiled("drive", &specification("drive", &all));
+        let system = compiled("drive", &specification("drive", &all).unwrap());
         let mandatory =
             system.devices[0].objects.values().filter(|object| object.category == Some(Category::Mandatory));
         assert!(mandatory.count() > 5);
@@ -238,6 +238,7 @@ mod tests {
     fn examples_in_comments_compile() {
         for mode in &MODES {
             let text = specification("drive", &[mode])
+                .unwrap()
                 .replace("  #   0x", "  0x")
                 .replace("  # centidegree:", "  centidegree:");
             let text = if text.contains("unit: centidegree}\n") {
@@ -253,7 +254,7 @@ mod tests {
     /// What the table here says of a mode is what the library says.
     #[test]
     fn modes_are_the_bits_of_6502h() {
-        let system = compiled("drive", &specification("drive", &[&MODES[0]]));
+        let system = compiled("drive", &specification("drive", &[&MODES[0]]).unwrap());
         let entry = &system.devices[0].objects[&od_spec::model::Index(0x6502)].entries[0];
         let Some(od_spec::model::TypeKind::Bits(fields)) = entry.named_type.as_ref().map(|named| &named.kind)
         else {

@@ -56,7 +56,15 @@ pub(super) fn clone(glue: &Path) -> Result<PathBuf, Diagnostic> {
 }
 
 /// The files of a project for a device.
-pub(super) fn files(firmware: Firmware, key: &str, glue: Option<&Path>, system: &System) -> Vec<Artifact> {
+///
+/// # Errors
+/// A template that is wrong.
+pub(super) fn files(
+    firmware: Firmware,
+    key: &str,
+    glue: Option<&Path>,
+    system: &System,
+) -> Result<Vec<Artifact>, Diagnostic> {
     let prefix = od_c::device_prefix(key);
     let dictionary = Rust.identifier(ScopeKind::Dictionary, Role::Type, &Words::of(key));
     let glue = glue.map_or_else(|| GLUE.to_owned(), in_toml);
@@ -65,13 +73,13 @@ pub(super) fn files(firmware: Firmware, key: &str, glue: Option<&Path>, system: 
         objects.filter(|index| indices.contains(&index.0)).count().to_string()
     };
     let marks = [
-        ("<PREFIX>", prefix.to_ascii_uppercase()),
-        ("<prefix>", prefix),
-        ("<module>", rust::module(key)),
-        ("<Dictionary>", dictionary),
-        ("<glue>", glue),
-        ("<rpdos>", count(0x1400..=0x15FF)),
-        ("<tpdos>", count(0x1800..=0x19FF)),
+        ("PREFIX", prefix.to_ascii_uppercase()),
+        ("prefix", prefix),
+        ("module", rust::module(key)),
+        ("Dictionary", dictionary),
+        ("glue", glue),
+        ("rpdos", count(0x1400..=0x15FF)),
+        ("tpdos", count(0x1800..=0x19FF)),
     ];
     let marks: Vec<(&str, &str)> = marks.iter().map(|(mark, text)| (*mark, text.as_str())).collect();
     let templates: &[Template] = match firmware {
@@ -79,10 +87,9 @@ pub(super) fn files(firmware: Firmware, key: &str, glue: Option<&Path>, system: 
         Firmware::C => &C,
         Firmware::Canopennode => &CANOPENNODE,
     };
-    let artifact = |(path, template): &Template| Artifact {
-        path: (*path).to_owned(),
-        bytes: fill(template, key, &marks).into_bytes(),
-        purpose: String::new(),
+    let artifact = |(path, template): &Template| {
+        let bytes = fill(template, key, &marks)?.into_bytes();
+        Ok(Artifact { path: (*path).to_owned(), bytes, purpose: String::new() })
     };
     templates.iter().map(artifact).collect()
 }

@@ -77,7 +77,10 @@ impl Channels {
     }
 
     /// A starter for a module with these channels.
-    pub(super) fn specification(self, key: &str) -> String {
+    ///
+    /// # Errors
+    /// A template that is wrong.
+    pub(super) fn specification(self, key: &str) -> Result<String, Diagnostic> {
         let device_type = self.stated().fold(0x0191, |bits, (.., bit)| bits | bit);
         let features = self.stated().map(|(number, _, feature, _)| format!("{feature}: {number}"));
         let features: Vec<String> = features.collect();
@@ -95,10 +98,10 @@ impl Channels {
             include_str!("io.od.yaml"),
             key,
             &[
-                ("<type>", &format!("0x{:04X}_{:04X}", device_type >> 16, device_type & 0xFFFF)),
-                ("<channels>", &items(features.iter().map(String::as_str))),
-                ("<also>", &items(beside.into_iter())),
-                ("<pdos>", pdos.concat().trim_end()),
+                ("type", &format!("0x{:04X}_{:04X}", device_type >> 16, device_type & 0xFFFF)),
+                ("channels", &items(features.iter().map(String::as_str))),
+                ("also", &items(beside.into_iter())),
+                ("pdos", pdos.concat().trim_end()),
             ],
         )
     }
@@ -161,7 +164,7 @@ mod tests {
                 for (outputs, analogue_outputs) in [(0, 0), (16, 0), (0, 2), (65, 13)] {
                     let channels = Channels { inputs, outputs, analogue_inputs, analogue_outputs };
                     if channels.stated().next().is_some() {
-                        let system = compiled("io", &channels.specification("io"));
+                        let system = compiled("io", &channels.specification("io").unwrap());
                         assert_eq!(elements(&system, 0x6000), usize::from(inputs).div_ceil(8));
                         assert_eq!(elements(&system, 0x6002), elements(&system, 0x6000));
                         assert_eq!(elements(&system, 0x6200), usize::from(outputs).div_ceil(8));
@@ -178,7 +181,7 @@ mod tests {
     #[test]
     fn pdos_are_those_of_the_profile() {
         let channels = Channels { inputs: 20, outputs: 8, analogue_inputs: 5, analogue_outputs: 0 };
-        let system = compiled("io", &channels.specification("io"));
+        let system = compiled("io", &channels.specification("io").unwrap());
         let of = |direction| -> Vec<(u16, Vec<u32>)> {
             let pdos = system.devices[0].pdos_of(direction);
             pdos.map(|pdo| (pdo.number, pdo.map.iter().map(Mapped::parameter).collect())).collect()
@@ -192,6 +195,6 @@ mod tests {
                 (3, vec![0x6401_0510]),
             ]
         );
-        assert!(channels.specification("io").contains("device-type: 0x0007_0191"));
+        assert!(channels.specification("io").unwrap().contains("device-type: 0x0007_0191"));
     }
 }

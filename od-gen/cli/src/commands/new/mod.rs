@@ -43,14 +43,14 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
         return Err(Diagnostic::without_place(codes::UNKNOWN_WORD, message).help("add `--profile cia401`"));
     }
     let (text, kind) = match args.profile {
-        Profile::Cia301 => (device(key), "a device without a device profile".to_owned()),
+        Profile::Cia301 => (device(key)?, "a device without a device profile".to_owned()),
         Profile::Cia401 => {
             let channels = io::Channels::of(args)?;
-            (channels.specification(key), format!("an I/O module with {channels}"))
+            (channels.specification(key)?, format!("an I/O module with {channels}"))
         }
         Profile::Cia402 => {
             let modes = drive::modes(&args.modes)?;
-            (drive::specification(key, &modes), format!("a drive with {}", drive::list(&modes)))
+            (drive::specification(key, &modes)?, format!("a drive with {}", drive::list(&modes)))
         }
     };
     if args.glue.is_some() && args.firmware != Some(Firmware::Rust) {
@@ -81,7 +81,7 @@ fn new(args: &NewArgs) -> Result<String, Diagnostic> {
     let objects: usize = system.devices.iter().map(|device| device.objects.len()).sum();
     let mut files = vec![Artifact { path: name, bytes: text.into_bytes(), purpose: String::new() }];
     if let Some(firmware) = args.firmware {
-        files.extend(firmware::files(firmware, key, glue.as_deref(), &system));
+        files.extend(firmware::files(firmware, key, glue.as_deref(), &system)?);
     }
     write_set(&directory, &files, Existing::None).map_err(|error| not_written(&error))?;
     let shown = |path: &Path| shown_path(path.strip_prefix(".").unwrap_or(path));
@@ -108,7 +108,7 @@ fn check_key(key: &str) -> Result<(), Diagnostic> {
         .help("a key has up to 32 lower-case letters, digits and hyphens, such as `my-device`"))
 }
 
-fn device(key: &str) -> String {
+fn device(key: &str) -> Result<String, Diagnostic> {
     fill(include_str!("device.od.yaml"), key, &[])
 }
 
@@ -141,6 +141,6 @@ mod tests {
 
     #[test]
     fn the_plain_device_compiles_clean() {
-        compiled("plain", &device("plain"));
+        compiled("plain", &device("plain").unwrap());
     }
 }

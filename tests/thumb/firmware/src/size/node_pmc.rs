@@ -9,8 +9,8 @@ use firmware_glue::lss::LssHandler;
 use firmware_glue::node::{NodeHandler, Reset};
 use firmware_glue::pdo::engine::PdoHandler;
 use firmware_glue::storage::{ALL, Command, ParameterStore};
-use firmware_glue::{AbortCode, Application, Dictionary as _, NodeId};
-use od_generated::pmc::{Entry, Pmc as Device};
+use firmware_glue::{AbortCode, Application, NodeId};
+use od_generated::pmc::Pmc as Device;
 
 /// A flash that is somewhere else.
 struct Flash;
@@ -59,8 +59,7 @@ impl Application<Device> for Drive {
         black_box(false)
     }
 
-    fn accept(&mut self, od: &mut Device, entry: Entry, _: &[u8]) -> Result<(), AbortCode> {
-        let Some(command) = Command::of(od.info(entry).id()) else { return Ok(()) };
+    fn command(&mut self, od: &mut Device, command: Command) -> Result<(), AbortCode> {
         let store = self.store.as_mut().ok_or(AbortCode::HARDWARE)?;
         store.command(od, command).map(drop).map_err(AbortCode::from)
     }

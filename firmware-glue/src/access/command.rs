@@ -1,5 +1,6 @@
 //! What a client stores and restores by 1010h and 1011h (CiA 301 9.6.3).
 
+use crate::abort::AbortCode;
 use crate::table::Storage;
 use crate::table::entry::EntryId;
 
@@ -27,6 +28,18 @@ impl Command {
         }
     }
 
+    /// The command that a client gives by a value of an entry: its signature, and nothing else.
+    pub(crate) fn given(entry: EntryId, value: u32) -> Result<Self, AbortCode> {
+        Self::of(entry).filter(|command| value == command.signature()).ok_or(AbortCode::NOT_STORED)
+    }
+
+    const fn signature(self) -> u32 {
+        match self {
+            Self::Save(_) => u32::from_le_bytes(*b"save"),
+            Self::Restore(_) => u32::from_le_bytes(*b"load"),
+        }
+    }
+
     /// The groups that it is about (CiA 301 9.6.3, 1010h): sub-index 1 all, 2 communication, 3 application, others the manufacturer's.
     #[must_use]
     pub const fn groups(self) -> &'static [Storage] {
@@ -44,6 +57,31 @@ impl Command {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::access::dictionary::Dictionary;
+    use crate::access::test_table::{dictionary, value};
+
+    #[test]
+    fn a_command_is_given_by_its_signature_alone() {
+        let given =
+            |index, sub, value: &[u8; 4]| Command::given(EntryId { index, sub }, u32::from_le_bytes(*value));
+        assert_eq!(given(0x1010, 1, b"save"), Ok(Command::Save(1)));
+        assert_eq!(given(0x1011, 2, b"load"), Ok(Command::Restore(2)));
+        for (index, sub, value) in
+            [(0x1010, 1, b"load"), (0x1011, 1, b"save"), (0x1010, 1, b"evas"), (0x1010, 128, b"save")]
+        {
+            assert_eq!(given(index, sub, value), Err(AbortCode::NOT_STORED));
+        }
+    }
+
+    /// A client whose command succeeds relies on the memory.
+    #[test]
+    fn an_application_without_a_store_refuses_to_store() {
+        let values =
+            [value(0x1010, 0, 1, 1), value(0x1010, 1, 4, 0), value(0x1011, 0, 1, 1), value(0x1011, 1, 4, 0)];
+        let mut od = dictionary(&values);
+        assert_eq!(od.write(0x1010, 1, b"save", &mut ()), Err(AbortCode::NOT_STORED));
+        assert_eq!(od.write(0x1011, 1, b"load", &mut ()), Err(AbortCode::NOT_STORED));
+    }
 
     #[test]
     fn commands_are_those_of_1010h_and_1011h() {
