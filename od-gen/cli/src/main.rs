@@ -39,15 +39,15 @@ use report::Report;
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// Checks CANopen object dictionaries – specifications, EDS, DCF, XDD and XDC files – and makes EDS, DCF, XDD, JSON, Rust and documents from them.
+/// Checks CANopen object dictionaries – specifications, EDS, DCF, XDD and XDC files – and generates EDS, DCF, XDD, JSON, Rust, C, Structured Text and documents from them.
 #[derive(Debug, Parser)]
 #[command(
     name = "odgen",
     bin_name = "odgen",
     version,
-    after_help = "Exit codes: 0 fine, 1 errors in the input or output not written, 2 wrong command line, \
-                  3 what `odgen diff --exit-code` looks for, or `odgen node compare` finds.\n\
-                  `odgen explain OD0507` says more about a message; `odgen reference` describes the language."
+    after_help = "Exit codes: 0, success; 1, errors in the input, or an output could not be written; 2, wrong command line; \
+                  3, differences that `odgen diff --exit-code` or `odgen node compare` looks for.\n\
+                  `odgen explain OD0507` explains a message; `odgen reference` describes the language."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -57,11 +57,11 @@ struct Cli {
     #[arg(long, value_enum)]
     format: Option<Format>,
 
-    /// Directory whose `*.od.yaml` are taken when no SPEC is named
+    /// Directory whose `*.od.yaml` files are taken if no SPEC is given
     #[arg(long = "specs", global = true, default_value = ".", hide_default_value = true, value_name = "DIR")]
     directory: PathBuf,
 
-    /// Take the objects that CANopenEditor switched off in an XDD or XPD, too
+    /// Include objects that CANopenEditor switched off in an XDD or XPD
     #[arg(long, global = true)]
     disabled: bool,
 
@@ -72,47 +72,47 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Make the files of a specification: EDS of each device and the JSON dump; an error writes none of them
+    /// Generate files from a specification: an EDS for each device, JSON, and on request DCF, XDD, Rust, C and documents; on an error, none
     Build(build::BuildArgs),
     /// Check specifications, EDS, DCF, XDD and XDC files without writing anything
     Check(check::CheckArgs),
-    /// Look into a concise DCF, the binary that a CANopen master downloads to a node (object 1F22h)
+    /// Show the records of a concise DCF, the binary file that a CANopen master downloads to a node (object 1F22h)
     Concise(concise::ConciseArgs),
-    /// Make the DBC of the nodes of a bus, for trace and test tools: PDOs and services as messages, with units, names of values and bits
+    /// Generate the DBC of the nodes of a bus, for trace and test tools: PDOs and services as messages, with units and names of values and bits
     Dbc(dbc::DbcArgs),
-    /// Make the DCF of one node, with parameter values of your own
+    /// Generate the DCF of one node, with your own parameter values
     Dcf(dcf::DcfArgs),
-    /// Print what the frames of a recorded trace mean: services, entries and values in units, states, errors
+    /// Explain the frames of a recorded trace: services, entries and values in units, states, errors
     Decode(decode::DecodeArgs),
     /// Show what differs between two dictionaries, and what each change breaks
     Diff(diff::DiffArgs),
     /// Print the resolved model as JSON
     Dump(dump::DumpArgs),
-    /// Make the reference documentation: the manual's tables and a reference of all objects, as Markdown or HTML
+    /// Generate the reference documentation: the manual's tables and a reference of all objects, as Markdown, HTML or PDF
     Docs(docs::DocsArgs),
     /// List where the printed manual differs from the specification
     Errata(errata::ErrataArgs),
     /// Make a specification from an EDS, DCF, XDD or XDC
     Import(import::ImportArgs),
-    /// Fix what is wrong with the form of EDS and DCF files, as far as nothing has to be guessed
+    /// Repair the form of EDS and DCF files where nothing has to be guessed
     Fix(fix::FixArgs),
-    /// Lay out specifications: indentation and spaces; comments, order and facts stay
+    /// Format specifications: indentation and spaces; comments, order and facts stay
     Fmt(fmt::FmtArgs),
-    /// Serve an editor: the Language Server Protocol on standard input and output
+    /// Run the language server (Language Server Protocol on standard input and output)
     Lsp(lsp::LspArgs),
-    /// Write a commented specification to start from
+    /// Write a commented specification and, with `--firmware`, a firmware project for it
     New(new::NewArgs),
-    /// Talk to nodes on a bus, by an adapter with SLCAN (TCP or serial) or a CAN interface
+    /// Read, write, back up and watch nodes on a bus, through an SLCAN adapter (TCP or serial) or a CAN interface
     Node(node::NodeArgs),
     /// Make a parameter file from a DCF: the values that differ from the defaults, by name and in units
     Params(params::ParamsArgs),
-    /// Work on a plant file: the nodes of many machines, with values inherited from type, site and machine
+    /// Build, check or show a plant file: the nodes of many machines, with values inherited from type, site and machine
     Plant(plant::PlantArgs),
-    /// Run virtual nodes that any client can reach by SLCAN (TCP or a pseudo-terminal) or a CAN interface
+    /// Run virtual nodes that any client can reach through SLCAN (TCP or a pseudo-terminal) or a CAN interface
     Serve(serve::ServeArgs),
-    /// Make Structured Text (IEC 61131-3) for PLC programs: constants, enums, bits, conversions to units and back, PDOs
+    /// Generate Structured Text (IEC 61131-3) for PLC programs: constants, enums, bits, unit conversions, PDOs
     St(st::StArgs),
-    /// Explain what a message code means and what to do about it
+    /// Explain a message code and how to fix its cause
     Explain(explain::ExplainArgs),
     /// Print a library of standard objects, or the names of all
     Library(library::LibraryArgs),

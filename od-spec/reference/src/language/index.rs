@@ -26,7 +26,7 @@ pub(super) fn keys() -> String {
             maps.entry(key.name).or_default().push(short_link(keys));
         }
     }
-    let mut out = String::from("| Key | Of |\n| --- | --- |");
+    let mut out = String::from("| Key | Allowed in |\n| --- | --- |");
     for (key, links) in maps {
         let _ = write!(out, "\n| `{key}` | {} |", links.join(", "));
     }

@@ -8,10 +8,10 @@ use crate::messages::Messages;
 
 #[derive(Debug, Args)]
 pub(crate) struct NewArgs {
-    /// Key of the device, which also names the file: lower-case letters, digits and hyphens
+    /// Key of the device and name of the file: lower-case letters, digits and hyphens
     pub name: String,
 
-    /// What the device follows
+    /// Device profile
     #[arg(long, value_enum, default_value_t)]
     pub profile: Profile,
 
@@ -35,15 +35,15 @@ pub(crate) struct NewArgs {
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u16).range(..=254))]
     pub analogue_outputs: Option<u16>,
 
-    /// Make a firmware for it, too, in a directory with the name of the device
+    /// Also write a firmware project, in a directory with the name of the device
     #[arg(long, value_enum, value_name = "LANGUAGE")]
     pub firmware: Option<Firmware>,
 
-    /// Clone of odgen with the crates that firmware in Rust needs; they are not published yet
+    /// Clone of the odgen repository, with the crates that firmware in Rust needs; they are not published yet
     #[arg(long, value_name = "DIR")]
     pub glue: Option<PathBuf>,
 
-    /// Directory for the file
+    /// Directory to write to
     #[arg(long, short, default_value = ".", value_name = "DIR")]
     pub out: PathBuf,
 
@@ -56,18 +56,18 @@ pub(crate) enum Profile {
     /// No device profile, only the communication objects
     #[default]
     Cia301,
-    /// I/O modules; how many channels they have, `--inputs` and the others say
+    /// I/O modules, with the number of channels in `--inputs` and the other three options
     Cia401,
-    /// Drives and motion control; its modes are pp, vl, pv, tq, hm, ip, csp, csv, cst
+    /// Drives and motion control, with the modes pp, vl, pv, tq, hm, ip, csp, csv, cst
     Cia402,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Firmware {
-    /// A whole node in Rust, which `cargo run --release` starts in QEMU
+    /// A complete node in Rust, which `cargo run --release` starts in QEMU
     Rust,
     /// The dictionary in C with an SDO server, which `make run` starts in QEMU
     C,
-    /// A main program for CANopenNode and the list of files to compile; the stack and its driver are yours
+    /// A main program for CANopenNode and the list of files to compile, without the stack and its driver
     Canopennode,
 }
