@@ -87,13 +87,18 @@ Welcher enthält den *Offset*, und in welchem ist die *Temperatur* enthalten? / 
 Welchen *Offset* haben diese *Parameter*? / Wer kann mich vor *Störungen* *schützen*?
 Sollte in diesem *Bit 7* von einem *Reset* des *Statusword* sein? / Wird ein *Halt* ins *Statusword* *gesetzt*?
 dieser *Offset*, diesen *Offset*, dies über *Parameter* sehen
+Please tell me about the *statusword* again. / What may I send out to *store* it? / Every *limit* may work while each other thing works just like *halt*.
+Also, make only such *parameters*. / Is the *fault* still there? / Bitte zeigen: *Statusword* / Was zeigt alle *Parameter*? / Ich möchte dann doch etwas *Spannung*.
+Hier immer jede *Warnung* / jeden *Fehler*, jeder *Reset* / Lassen wir mal mehr *Offset*? / Lässt er schon wieder sehr *Halt* machen? / Was macht das *Fenster*?
+Was soll ich tun: *Störung* / Wo finde ich den *Offset*, und wo finden wir *Parameter*? / Ich brauche *Offset*. / Wir brauchen, wollen *Halt*.
+Wie ändere ich den *Offset*, wie ändern wir *Parameter*? / Wie stelle ich den ein? *Offset* / Wie lese ich den *Offset*? / Liegt die *Warnung* an?
 `;
 const MEANT = /\*(.*?)\*/g, written = SENTENCES.trim().split(/ \/ |\n/);
 const sentences = written.map((text) => [text.replaceAll("*", ""), [...text.matchAll(MEANT)].map(([, meant]) => meant).join(" ")]);
 const decoys = new Set(written.flatMap((text) => wordsOf(text.replace(MEANT, " "))));
 const asked = (within, text) => {
-  const { cards, unknown, partial, costs } = ask(text, within);
-  return [costs.length, unknown, partial, cards.map(({ at }) => within.places[at].id)];
+  const { cards, unknown, partial, of } = ask(text, within);
+  return [of.gains.length, unknown, partial, cards.map(({ at }) => within.places[at].id)];
 };
 const among = () => fill(new WordIndex(SYNONYMS), decoys);
 const failing = (within, list = sentences) => list.filter(([text, meant]) => JSON.stringify(asked(within, text)) !== JSON.stringify(asked(within, meant)));

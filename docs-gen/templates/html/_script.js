@@ -63,7 +63,7 @@
   const links = new Map([...contents.querySelectorAll("a[href^='#']")].map((link) => [decodeURIComponent(link.hash.slice(1)), link.parentElement]));
   const items = [...document.querySelectorAll("article.object, .intro, .part")]
     .map((card) => ({ card, link: links.get(card.id), shown: true, isObject: card.matches(".object"), isPdo: card.matches(".pdo") }));
-  const objects = items.filter((item) => item.isObject);
+  const objects = items.filter((item) => item.isObject), isDevice = objects.length > 0;
   const itemOf = new Map(items.map((item) => [item.card, item]));
   // Groups of cards, and of lines of the contents, that the browser lays out together.
   const groups = new Map();
@@ -76,6 +76,11 @@
   // Objects that show another one have its name, and follow it.
   const views = new Set([...document.querySelectorAll("dd[data-kind=aliases] a")].map((link) => decodeURIComponent(link.hash.slice(1)).slice(0, 4)));
 
+  // What a place is worth where others have the same words: parts of an object, what only repeats, and what is on another page, more if it is called like the
+  // question. A PDO has the names of what is mapped, too.
+  const WORTH_OF_KIND = { bit: 0.96, value: 0.96 }, PART = 0.98, PDO = 1.05, REPEATED = 0.95, ELSEWHERE = { worth: 0.92, exact: 0.95 }, OFF_DEVICE = { worth: 0.65, exact: 0.85 };
+  // What the parameters of a PDO hold is shown with it.
+  const PARAMETER_OF_PDO = /^1[4-7AB]/, hasPdos = items.some((item) => item.isPdo);
   // What a column's words are worth in the order of results, where it is not that of a fact.
   const FIELD_OF_COLUMN = {
     name: NAME, title: NAME, code: NAME, abbreviation: NAME, description: TEXT, meaning: TEXT, reaction: TEXT, event: TEXT, action: TEXT, warning: TEXT,
@@ -84,16 +89,17 @@
   // Rows by their first column: what they are.
   const KIND_OF_ROW = { bit: "bit", value: "value", code: "error", sub: "entry", index: "entry" };
   const kindOf = (columns) => (columns.includes("because") ? "erratum" : KIND_OF_ROW[columns[0]] ?? "row");
-  // A name is that of an object or an entry; bits, values and errors are facts of these. An appendix of a device and rows that no link leads to only repeat.
+  // The name of a bit or a value is a fact of what has it. An appendix of a device and rows that no link leads to only repeat.
   const fieldOf = (column, at, kind, repeats) => {
     const field = FIELD_OF_COLUMN[column] ?? FACT;
     const isNumbered = kind === "bit" || kind === "value";
     if (isNumbered && at === 0) return NAME;
     // What a bit, a value or an error means is said nowhere else.
     if ((isNumbered && column === "meaning") || (kind === "error" && column === "description")) return FACT;
-    if (field !== NAME) return field;
-    return isNumbered || (column === "name" && kind === "error") || (column !== "code" && repeats) ? FACT : NAME;
+    return field === NAME && (isNumbered || (column !== "code" && repeats && kind !== "error")) ? FACT : field;
   };
+  // What a chapter, an appendix or a table is called, with its number and without.
+  const namesOf = (title) => [title, title.replace(/^(?:[\d.]+|[0-9A-F]{4}h?|\p{L}+ [\dA-Z]+:?) /u, "")];
   const clean = (text) => text.replace(/\s+/g, " ").trim();
   // What filters look at; many rows have the same.
   const knownFacts = new Map();
@@ -117,7 +123,7 @@
 
   const readRows = (item, table, inHead) => {
     const columns = (table.dataset.columns ?? "").split(" "), kind = kindOf(columns), name = columns.indexOf("name");
-    const repeats = !item.isObject && (objects.length > 0 || !table.tBodies[0]?.rows[0]?.id);
+    const repeats = !item.isObject && (isDevice || !table.tBodies[0]?.rows[0]?.id);
     const fieldsOfColumns = columns.map((column, at) => fieldOf(column, at, kind, repeats));
     // A bit and a value are also found by what their numbers are: `bit 3`.
     const label = kind === "bit" || kind === "value" ? table.tHead.rows[0].cells[0].textContent : "";
@@ -129,10 +135,9 @@
         if (text && !(inHead && (at === 0 || at === name))) fields[fieldsOfColumns[at]].push(text);
       }
       if (inHead) continue;
-      const isMain = item.isObject || (row.id && (objects.length === 0 || kind === "error"));
-      const code = kind === "error" ? wordsOf(row.cells[0].textContent)[0] : undefined;
-      const place = { item, row, kind, code, facts: factsOf(row), later: !isMain, called: label || name < 0 ? "" : row.cells[name].textContent };
-      index.place(place, fields, phrasesOf.get(row.id), kind === "entry" ? NAME : FACT);
+      const isMain = item.isObject || (row.id && (!isDevice || kind === "error"));
+      const worth = isMain ? item.worth * (WORTH_OF_KIND[kind] ?? PART) : REPEATED;
+      index.place({ item, row, kind, facts: factsOf(row), worth, called: name < 0 ? "" : row.cells[name].textContent }, fields, phrasesOf.get(row.id));
     }
   };
 
@@ -142,12 +147,12 @@
       const title = clean(caption.textContent);
       const fields = [[], [], texts.map((text) => text.textContent), []];
       fields[item.isObject ? FACT : NAME].push(title);
-      index.place({ item, row: table, kind: item.isObject ? "type" : "table", title }, fields);
+      index.place({ item, row: table, kind: item.isObject ? "type" : "table", title, named: item.isObject ? undefined : namesOf(title) }, fields);
     }
     for (const one of table.children) {
       if (one.matches(".object-head")) {
         const about = one.querySelector(".about")?.textContent ?? "", title = clean(one.textContent.slice(0, one.textContent.length - about.length));
-        index.place({ item, row: one, kind: "object", title }, [[title], [], [about], []]);
+        index.place({ item, row: one, kind: "object", title, named: namesOf(title) }, [[title], [], [about], []]);
       }
       else for (const own of one.querySelectorAll(":scope > table")) readRows(item, own);
     }
@@ -157,12 +162,14 @@
   const readPdo = (item, title) => {
     const { card } = item, settings = [...card.querySelectorAll("td:first-child")].map((cell) => cell.textContent);
     const fields = [[title, words.pdo, words.mapping, ...settings], [], [], []];
-    for (const mapped of card.querySelectorAll(".used text, .narrow a")) fields[NAME].push(mapped.textContent);
+    const mapped = [...card.querySelectorAll(".used text, .narrow a")].map((one) => one.textContent);
+    fields[NAME].push(...mapped);
     for (const link of card.querySelectorAll("a[href^='#']")) fields[FACT].push(...phrasesOf.get(decodeURIComponent(link.getAttribute("href").slice(1))) ?? []);
     for (const part of card.querySelectorAll("svg title, svg text")) fields[TEXT].push(part.textContent);
     for (const part of card.querySelectorAll("td:not(:first-child)")) fields[FACT].push(part.textContent);
     for (const about of card.querySelectorAll(":scope > p")) fields[TEXT].push(about.textContent);
-    index.place({ item, row: null, kind: "pdo", title, named: [title] }, fields);
+    const named = [...mapped.map((own) => `${words.pdo} ${own}`), ...[words.pdo, words.mapping, ...settings, ...mapped].map((own) => `${title} ${own}`), title];
+    index.place({ item, row: null, kind: "pdo", title, worth: PDO, named }, fields);
   };
 
   const readCard = (item) => {
@@ -173,11 +180,12 @@
     const small = heading?.querySelector("small")?.textContent ?? "";
     const [number, name] = item.isObject ? [title.slice(0, 5), clean(title.slice(5, title.length - small.length))] : ["", title];
     item.uses = card.querySelectorAll(":scope > dl dd[data-kind]").length;
+    item.worth = views.has(card.id) || (hasPdos && PARAMETER_OF_PDO.test(number)) ? REPEATED : 1;
     item.title = item.isObject ? `${number} ${name}` : title;
     const fields = [[number, name], [small], [], []];
     if (item.isPdo) return readPdo(item, title);
     // An appendix of a device is called like what its rows repeat.
-    if (!item.isObject && objects.length > 0) [fields[NAME], fields[FACT]] = [[], [title]];
+    if (!item.isObject && isDevice) [fields[NAME], fields[FACT]] = [[], [title]];
     for (const one of card.children) {
       if (one.matches("p.notes") && item.isObject) {
         fields[FACT].push(one.textContent);
@@ -188,7 +196,8 @@
     }
     const tables = [...card.querySelectorAll(":scope > .scroll > table")];
     for (const table of tables) if (table.dataset.columns?.startsWith("index")) readRows(item, table, fields);
-    const head = { item, row: null, kind: item.isObject ? "object" : "part", title: item.title, later: views.has(card.id) };
+    const head = { item, row: null, kind: item.isObject ? "object" : "part", title: item.title, worth: item.worth };
+    if (!item.isObject) head.named = namesOf(title);
     index.place(head, fields, phrasesOf.get(card.id));
     for (const one of card.children) {
       const own = tables.find((table) => table.parentNode === one);
@@ -214,7 +223,8 @@
       const more = new Map((phrases ?? []).filter(Boolean).map(([anchor, ...own]) => [anchor, own])), titles = new Map();
       const add = (anchor, title, facts) => {
         index.card({ page });
-        index.place({ kind: "page", label, href: `${page}#${anchor}`, title }, [[title.slice(0, 5), title], [facts], [], []], more.get(anchor));
+        const place = { kind: "page", ...(isDevice ? OFF_DEVICE : ELSEWHERE), label, href: `${page}#${anchor}`, title, named: namesOf(title) };
+        index.place(place, [[title.slice(0, 5), title], [facts], [], []], more.get(anchor));
       };
       for (const [anchor, title, facts = ""] of places.filter(Boolean)) {
         add(anchor, title, facts);
@@ -272,8 +282,8 @@
   };
 
   // ---- Showing what was found.
-  // What was found: on this page, and on others.
-  let hits = [], hitsElsewhere = [];
+  // What was found, here and on other pages.
+  let hits = [];
   let landing = 0, working = 0, found = null, marked = null, dressed = new Set(), round = 0;
   // The row that the address names; the answer to the question next to it may still be looked for.
   let aimed = null;
@@ -425,8 +435,8 @@
   for (const [group, [{ one, item }]] of groups) if (one === item.card) watcher.observe(group);
 
   // ---- The list of results, the best first.
-  const results = byId("ui_results"), [listOfPage, listElsewhere] = results.querySelectorAll("ol"), more = results.querySelector("button");
-  const FEW_GROUPS = 100, FIRST = 12, LONGEST_TITLE = 90, CLEARLY = 10 * 64;
+  const results = byId("ui_results"), lines = results.querySelector("ol"), more = results.querySelector("button");
+  const FEW_GROUPS = 100, FIRST = 12, LONGEST_TITLE = 90;
   const cut = (text) => (text.length > LONGEST_TITLE ? `${text.slice(0, LONGEST_TITLE - 1)}…` : text);
   const anchorOf = (at) => {
     const { row, item } = index.places[at];
@@ -457,15 +467,9 @@
     return line;
   };
   const list = (limit) => {
-    listOfPage.replaceChildren(...hits.slice(0, limit).map(result));
-    listElsewhere.replaceChildren(...hitsElsewhere.slice(0, 6).map(result));
+    lines.replaceChildren(...hits.slice(0, limit).map(result));
     more.textContent = `${hits.length - limit} ${words.more}`;
     show(more, hits.length > limit);
-    show(listElsewhere.previousElementSibling, hitsElsewhere.length > 0);
-    // Where another page answers better, its list is the first; on the page of a device, only where this one has a word less, or the words in texts alone.
-    const [own] = hits, [other] = hitsElsewhere, least = other?.rank === SOUGHT && own?.rank >= 64 ? 0 : objects.length > 0 && own?.missing === 0 ? CLEARLY : 2 * 64;
-    const isElsewhere = other !== undefined && (own === undefined || (other.missing === 0 && other.rank + least < own.rank));
-    if (isElsewhere) results.append(listOfPage, more); else results.append(listElsewhere.previousElementSibling, listElsewhere);
   };
   more.addEventListener("click", () => list(Infinity));
 
@@ -533,12 +537,10 @@
       }
     }
     marked = found && WordIndex.marked(found.meanings);
-    hits = [];
-    hitsElsewhere = [];
-    for (const one of found?.cards ?? []) {
+    hits = found?.cards ?? [];
+    for (const one of hits) {
       const item = index.cards[one.number];
-      if (item.page) { hitsElsewhere.push(one); continue; }
-      hits.push(one);
+      if (item.page) continue;
       item.found = one;
       item.round = round;
     }
@@ -581,7 +583,7 @@
   };
   // How many of what: objects of all, then places by their kind.
   const counts = (shown, shownObjects) => {
-    const first = objects.length > 0 ? `${words.object} ${shownObjects} / ${objects.length}` : `${shown} / ${items.length}`;
+    const first = isDevice ? `${words.object} ${shownObjects} / ${objects.length}` : `${shown} / ${items.length}`;
     const kinds = KINDS.filter((kind) => found?.kinds.has(kind)).map((kind) => `${words[kind]} ${found.kinds.get(kind)}`);
     return [first, ...kinds].join(", ");
   };

@@ -1,16 +1,20 @@
   // ---- Words: what is compared when a reader looks for something. This part knows nothing about the page.
 
-  // What a hit is worth by where it is (less is better), and what is added for a longer text.
+  // What a word of the question is worth by where it is, and by how a word of the page fits: it is the same, another form, longer, or has it inside.
   const NAME = 0, FACT = 1, TEXT = 2, ERRATUM = 3;
-  const COST = [0, 2, 5, 20], PER_LENGTH = [0, 1, 1, 1], NEVER = 255;
-  // What is added by how a word fits: the same, another form of it, its beginning, its end, its middle.
-  const SAME = 0, FORM = 1, BEGINNING = 2, END = 3, MIDDLE = 4;
-  const GRADE = [0, 1, 3, 4, 16];
-  const SYNONYM = 1, COMPOUND = 1, SIMILAR = 4, SCATTERED = 24, SOUGHT = 1, PARTLY = 20, ENOUGH = 8, HOLDS = 30, LATER = 5, READ_AT_ONCE = 200, MANY_PLACES = 8000;
-  // What a word costs that a place does not have, at least and for each halving of the places that have it; how much worse than the best such a place may be.
-  const MISSING = 28, PER_HALF = 4, MOST_MISSING = 64, NOUN = 12, AS_GOOD = 12;
-  // A text of more words than this is a long one; a synonym has at most so many words after its first.
-  const LONG = 12, MOST_OF_PHRASE = 5;
+  const WORTH = [1, 0.9, 0.45, 0.15], FULL = 255;
+  const SAME = 0, FORM = 1, BEGINNING = 2, INSIDE = 3;
+  const GRADE = [1, 0.85, 0.85, 0.4];
+  // What is left of that for words that mean the same, for one that is written like it, for one that only the head of the card has, and for a place without another word.
+  const SYNONYM = 0.9, SIMILAR = 0.6, OF_CARD = 0.97, PARTLY = 0.9;
+  // How much depends on what a place is called, the weight of a stop word in a name, from where on a name is the question, and from where on two places differ.
+  const NEARNESS = 0.2, LITTLE = 3, EXACT = 0.99, STEPS = 50;
+  // What a place that lacks a word has to have of the best one, to be found.
+  const AS_GOOD = 0.7;
+  const READ_AT_ONCE = 200, MANY_PLACES = 8000;
+  const NOTHING = { asked: 0 };
+  // A synonym has at most so many words after its first.
+  const MOST_OF_PHRASE = 5;
   // The parts of a German compound, and what joins them.
   const SHORTEST_PART = 4, MOST_PARTS = 3, JOINTS = ["s", "es", "n", "en", "er"];
   // After so many words, hits, places and cards a search may be interrupted: none of these takes a millisecond.
@@ -91,7 +95,6 @@
     #numbers = new Map();
     #hits = [];
     #texts = new Map();
-    #names = new Map();
     // Phrases that mean the same as others, by their first word.
     #synonyms = new Map();
     // For beginnings of words, all of them in order; for their middles, those that begin with a letter. Both once all are read.
@@ -100,6 +103,8 @@
 
     // Words by what they have in common with other forms of them.
     #forms = new Map();
+    // What words weigh in names.
+    #weights = [];
 
     constructor(synonyms) {
       const lists = synonyms.map((phrases) => phrases.map((phrase) => wordsOf(phrase)));
@@ -131,17 +136,19 @@
       this.cards.push(card);
     }
 
-    // Many cells say the same, so that their words are worked out once. A row is `called` by a fact, and something may be `named` by less than all that counts as its
-    // name; `phrases` are names that the page does not show.
-    place(place, fields, phrases = [], field = NAME) {
+    // Many cells say the same, so that their words are worked out once. A row is `called` by a fact, and something may be `named` by others than all that counts as its
+    // name; `phrases` are names that the page does not show. A place is `worth` less than 1 where others with the same words go before it, or `exact` if it is called
+    // like the question.
+    place(place, fields, phrases = []) {
       const number = this.places.push(place) - 1;
-      place.names = (place.named ?? [...fields[NAME], place.called]).filter(Boolean).map((text) => this.#name(text));
-      place.phrases = phrases.map((text) => this.#name(text));
-      const all = fields.map((texts, at) => (at === field ? [...texts, ...phrases] : texts));
+      const names = (place.named ?? [...fields[NAME], place.called]).filter(Boolean);
+      place.names = [...names, ...phrases].map((text) => this.#text(text));
+      place.length = place.names[names.length - 1]?.length ?? 0;
+      const all = fields.map((texts, at) => (at === NAME ? [...texts, ...phrases] : texts));
       place.fields = all.map((texts, at) => texts.filter(Boolean).map((text) => {
-        const { list, isLong } = this.#text(text);
+        const list = this.#text(text);
         for (const word of list) {
-          const hit = number * 8 + isLong * 4 + at, hits = this.#hits[word];
+          const hit = number * 4 + at, hits = this.#hits[word];
           if (hits.at(-1) !== hit) hits.push(hit);
         }
         return list;
@@ -152,27 +159,17 @@
     #text(text) {
       let known = this.#texts.get(text);
       if (!known) {
-        const list = wordsOf(text).map((word) => this.#number(word));
-        this.#texts.set(text, known = { list, isLong: list.length > LONG ? 1 : 0 });
+        known = Object.assign(wordsOf(text).map((word) => this.#number(word)), { number: this.#texts.size });
+        this.#texts.set(text, known);
       }
       return known;
-    }
-
-    // A name without spaces, and its words.
-    #name(text) {
-      let name = this.#names.get(text);
-      if (!name) {
-        const words = wordsOf(text);
-        const meant = meantOf(words), numbers = (list) => list.map((word) => this.#number(word));
-        this.#names.set(text, name = { name: words.join(""), meant: meant.join(""), parts: numbers(meant), words: numbers(words), length: words.length });
-      }
-      return name;
     }
 
     #sort() {
       if (this.#sorted.length === this.words.length) return;
       this.#sorted = [...this.words.keys()].sort((one, other) => (this.words[one] < this.words[other] ? -1 : 1));
       this.#lettered = this.#sorted.filter((number) => /^\p{L}/u.test(this.words[number]));
+      this.#weights = this.words.map((word, number) => (stopWords.has(word) ? LITTLE : this.#weight(this.#hits[number].length + 1)));
       this.#forms = new Map();
       for (const number of this.#lettered) {
         const form = stem(this.words[number]);
@@ -202,7 +199,7 @@
         for (let at = 0; at < this.#lettered.length; at++) {
           const number = this.#lettered[at], word = this.words[number];
           // The end of a compound says what it is: a `Positionsfenster` is a `Fenster`.
-          if (word.indexOf(text, 1) > 0 && !found.has(number)) found.set(number, text.length > 3 && word.endsWith(text) ? END : MIDDLE);
+          if (word.indexOf(text, 1) > 0 && !found.has(number)) found.set(number, INSIDE);
           if (at % SOME === 0) yield;
         }
       }
@@ -221,7 +218,7 @@
       for (const word of rarest.keys()) {
         for (const hit of this.#hits[word]) {
           if (++looked % SOME_CARDS === 0) yield;
-          const texts = this.places[hit >> 3].fields[hit & 3];
+          const texts = this.places[hit >> 2].fields[hit & 3];
           if (texts.some((list) => list.some((_, at) => sets.every((set, step) => set.has(list[at + step]))))) hits.add(hit);
         }
       }
@@ -241,16 +238,16 @@
         if (hits.length > 0) meanings.push({ sets, hits, extra });
       };
       const word = words[at];
-      yield* single(word, 0, true);
-      if (at > 0) yield* single(words[at - 1] + word, 0, false);
-      if (at + 1 < words.length) yield* single(word + words[at + 1], 0, false);
+      yield* single(word, 1, true);
+      if (at > 0) yield* single(words[at - 1] + word, 1, false);
+      if (at + 1 < words.length) yield* single(word + words[at + 1], 1, false);
       for (let cut = 2; cut < word.length; cut++) {
         const parts = [word.slice(0, cut), word.slice(cut)];
-        if ((parts[1].length > 1 || /\d/.test(parts[1])) && parts.every((part) => this.#numbers.has(part))) yield* phrase(parts, 0);
+        if ((parts[1].length > 1 || /\d/.test(word)) && parts.every((part) => this.#numbers.has(part))) yield* phrase(parts, 1);
       }
       for (const others of this.#othersAt(words, at)) yield* phrase(others, SYNONYM);
       const compound = yield* this.#compound(word);
-      if (compound) meanings.push({ parts: compound, extra: COMPOUND });
+      if (compound) meanings.push({ parts: compound, extra: SYNONYM });
       return meanings;
     }
 
@@ -273,7 +270,7 @@
         for (const part of parts) {
           const found = [];
           const like = (this.#forms.get(stem(part)) ?? []).map((number) => [number, this.words[number] === part ? SAME : FORM]);
-          if (like.length > 0) found.push({ like, extra: 0 });
+          if (like.length > 0) found.push({ like, extra: 1 });
           for (const others of this.#othersAt([part], 0)) {
             if (others.length === 1) found.push({ like: yield* this.#like(others[0], false), extra: SYNONYM });
             else {
@@ -286,18 +283,6 @@
         if (meanings.every((found) => found.length > 0)) return meanings;
       }
       return null;
-    }
-
-    // For a word that is unknown as a whole, its longest beginning or end that is not.
-    #partOf(word) {
-      if (!/^\p{L}+$/u.test(word)) return [];
-      for (let length = word.length - 2; length > SHORTEST_PART; length--) {
-        for (const part of [word.slice(-length), word.slice(0, length)]) {
-          const like = (this.#forms.get(stem(part)) ?? []).map((number) => [number, FORM]);
-          if (like.length > 0) return [{ like, extra: SIMILAR }];
-        }
-      }
-      return [];
     }
 
     // The ways to divide a word into words that are known, with what may join two of them.
@@ -330,35 +315,36 @@
       const meanings = [];
       for (const other of near) meanings.push(...yield* this.#meanings([other], 0));
       return meanings.map((meaning) => ({
-        ...meaning, like: meaning.like?.filter(([, grade]) => grade === SAME), extra: meaning.extra + SIMILAR,
+        ...meaning, like: meaning.like?.filter(([, grade]) => grade === SAME), extra: meaning.extra * SIMILAR,
       }));
     }
 
-    // What each place costs for one word of the question, and how many places have it.
-    *#costs(meanings) {
-      const costs = new Uint8Array(this.places.length).fill(NEVER);
+    // How much each place has of one word of the question, up to FULL.
+    *#gains(meanings) {
+      const gains = new Uint8Array(this.places.length);
       let looked = 0;
       for (const { like, hits, parts, extra } of meanings) {
         if (parts) {
           const ofParts = [];
-          for (const part of parts) ofParts.push((yield* this.#costs(part)));
-          for (let at = 0; at < costs.length; at++) {
-            let sum = extra;
-            for (const cost of ofParts) sum += cost[at];
-            if (sum < costs[at]) costs[at] = sum;
+          for (const part of parts) ofParts.push((yield* this.#gains(part)));
+          for (let at = 0; at < gains.length; at++) {
+            let least = FULL;
+            for (const gain of ofParts) if (gain[at] < least) least = gain[at];
+            if (least * extra > gains[at]) gains[at] = least * extra;
             if (++looked % SOME === 0) yield;
           }
           continue;
         }
         for (const [list, grade] of hits ? [[hits, SAME]] : like.map(([word, fit]) => [this.#hits[word], fit])) {
+          const most = FULL * GRADE[grade] * extra;
           for (const hit of list) {
-            const cost = COST[hit & 3] + (hit & 4 ? PER_LENGTH[hit & 3] : 0) + GRADE[grade] + extra;
-            if (cost < costs[hit >> 3]) costs[hit >> 3] = cost;
+            const gain = most * WORTH[hit & 3];
+            if (gain > gains[hit >> 2]) gains[hit >> 2] = gain;
             if (++looked % SOME === 0) yield;
           }
         }
       }
-      return costs;
+      return gains;
     }
 
     // All cards that have every word: the best first. Where none has all, those that have most. `allowed` says which places count.
@@ -366,9 +352,7 @@
       const all = wordsOf(text);
       if (all.length === 0) return null;
       this.#sort();
-      const asked = meantOf(all), words = [], meanings = [], unknown = [];
-      // Of a German question, nouns are what it is about.
-      const nouns = new Set((text.match(WORD) ?? []).filter((word) => /^\p{Lu}\p{Ll}/u.test(word)).map(plain));
+      const asked = meantOf(all), meanings = [], unknown = [];
       let isSimilar = false;
       for (const at of asked.keys()) {
         let found = yield* this.#meanings(asked, at);
@@ -376,183 +360,173 @@
           found = yield* this.#similar(asked[at]);
           if (found.length > 0) isSimilar = true;
         }
-        if (found.length === 0) {
-          found = this.#partOf(asked[at]);
-          if (found.length > 0) isSimilar = true;
-        }
-        if (found.length > 0) { words.push(asked[at]); meanings.push(found); } else unknown.push(asked[at]);
+        if (found.length > 0) meanings.push(found); else unknown.push(asked[at]);
       }
-      const whole = [all.join(""), asked.join(""), asked];
-      const heavy = words.map((word) => (nouns.has(word) ? NOUN : 0));
-      let found = yield* this.#rank(whole, words, heavy, meanings, allowed);
-      if (!found.cards.some(({ missing }) => missing === 0)) {
-        const more = [];
-        for (const [at, word] of words.entries()) more.push([...meanings[at], ...yield* this.#similar(word)]);
-        const similar = yield* this.#rank(whole, words, heavy, more, allowed);
-        if (similar.cards.some(({ missing }) => missing === 0)) {
-          found = similar;
-          isSimilar = true;
-          meanings.splice(0, meanings.length, ...more);
-        }
-      }
+      const stops = new Set(all.filter((word) => !asked.includes(word)).map((word) => this.#numbers.get(word)));
+      const found = yield* this.#rank(stops, meanings, allowed);
       return {
-        ...found, unknown, similar: isSimilar && found.cards.length > 0, partial: found.cards.length > 0 && found.cards[0].missing > 0, meanings: meanings.flat(),
+        ...found, unknown, similar: isSimilar && found.cards.length > 0, partial: found.cards.length > 0 && found.cards[0].missing, meanings: meanings.flat(),
       };
     }
 
-    // What a place costs for the whole question, and what of that is for words that it does not have. A row is also found by the name of its card, if something of its
-    // own fits.
-    #sum(costs, weights, at, first) {
-      let sum = 0, missing = 0, fits = false;
-      for (let word = 0; word < costs.length; word++) {
-        const ofPlace = costs[word][at], ofCard = costs[word][first];
-        if (ofPlace < NEVER) fits = true;
-        const less = ofCard < COST[TEXT] && ofCard < ofPlace ? ofCard : ofPlace;
-        if (less === NEVER) missing += weights[word]; else sum += less;
-      }
-      this.#missing = missing;
-      return fits ? sum + missing : -1;
+    // What the head of a card gives to its places; its texts count only there.
+    #ofCard(gain, head) {
+      return gain[head] > FULL * WORTH[TEXT] ? gain[head] * OF_CARD : 0;
     }
-    #missing = 0;
+
+    // What a place has of the question, as a part of 1; below 0 if nothing of its own fits. A row is also found by the name of its card.
+    #sum({ gains, weights, all }, at, first) {
+      let sum = 0, fits = false;
+      this.#isMissing = false;
+      for (let word = 0; word < gains.length; word++) {
+        const own = gains[word][at], gain = Math.max(own, this.#ofCard(gains[word], first));
+        if (own > 0) fits = true;
+        if (gain === 0) this.#isMissing = true;
+        sum += gain * weights[word];
+      }
+      return fits ? sum / all : -1;
+    }
+    #isMissing = false;
 
     #end(card) {
       return this.cards[card + 1]?.first ?? this.places.length;
     }
 
-    *#rank(whole, words, heavy, meanings, allowed) {
-      const costs = [], weights = [];
+    // How much a word of the page says: the rarer, the more.
+    #weight(having) {
+      return Math.log2(1 + this.places.length / having);
+    }
+
+    *#rank(stops, meanings, allowed) {
+      const gains = [], weights = [], kinds = new Map(), cards = [];
       for (const list of meanings) {
-        const cost = yield* this.#costs(list);
+        const gain = yield* this.#gains(list);
         let having = 1;
-        for (let at = 0; at < cost.length; at++) {
-          if (allowed && !allowed(this.places[at])) cost[at] = NEVER;
-          if (cost[at] < NEVER) having += 1;
+        for (let at = 0; at < gain.length; at++) {
+          if (allowed && !allowed(this.places[at])) gain[at] = 0;
+          if (gain[at] > 0) having += 1;
           if (at % SOME === 0) yield;
         }
-        costs.push(cost);
-        weights.push(heavy[weights.length] + Math.min(MOST_MISSING, MISSING + Math.floor(PER_HALF * Math.log2(this.places.length / having))));
+        weights.push(this.#weight(having));
+        gains.push(gain);
       }
-      const asked = meanings.map((list) => new Set(list.flatMap(({ like }) => (like ?? []).flatMap(([word, fit]) => (fit <= BEGINNING ? [word] : [])))));
-      const cards = [], kinds = new Map();
+      const of = { gains, weights, all: FULL * weights.reduce((sum, one) => sum + one, 0), fits: meanings.map(WordIndex.#fits), stops, compared: new Array(this.#texts.size) };
       // A card can have ten thousand places, so that these are counted, too.
-      let looked = 0;
+      let looked = 0, bestOfAll = 0;
       for (let number = 0; number < this.cards.length; number++) {
         if (number % SOME_CARDS === 0) yield;
         const { first } = this.cards[number], end = this.#end(number);
-        let best = -1, least = Infinity, rank = Infinity, missing = 0;
+        let best = -1, score = 0, missing = false;
         for (let at = first; at < end; at++) {
-          const sum = this.#sum(costs, weights, at, first);
+          const sum = this.#sum(of, at, first);
           if (++looked % SOME === 0) yield;
           if (sum < 0) continue;
-          if (this.#missing === 0) {
-            const { kind } = this.places[at];
-            kinds.set(kind, (kinds.get(kind) ?? 0) + 1);
-          }
-          const place = this.places[at];
-          if (sum > least && place.phrases.length === 0) continue;
-          const lacks = this.#missing;
-          let near = this.#near(place, whole, asked);
-          // Of those that lack a word, the one that is called like the rest.
-          if (lacks > 0) {
-            const rest = words.filter((_, word) => costs[word][at] < NEVER || costs[word][first] < COST[TEXT]).join("");
-            if ([...place.names, ...place.phrases].some(({ name, meant }) => name === rest || meant === rest)) near = 9;
-          }
-          const isPartly = lacks > 0 && place.phrases.some((one) => this.#holds(one, asked));
-          if (isPartly) near = Math.min(near, PARTLY);
-          // What is looked for by exactly these words is what they mean; the name of an error is worth that of an object, if the question begins it or has its code, and
-          // so is that of a PDO which has the rest; what is looked for by some of the words is nearly as good.
-          const isSought = near === SOUGHT || near === SOUGHT + LATER, isPdo = place.kind === "pdo" && near <= HOLDS && lacks === 0;
-          const isNamed = isPdo || (place.kind === "error" && near < HOLDS), most = isNamed ? SYNONYM : isPartly ? ENOUGH : Infinity;
-          const counted = isSought || isPdo ? 0 : Math.min(sum, most), ranked = counted * 64 + near + (at === first ? 0 : 1);
-          if (ranked < rank) [best, least, rank, missing] = [at, counted, ranked, isSought ? 0 : lacks];
+          const isMissing = this.#isMissing, place = this.places[at];
+          if (!isMissing) kinds.set(place.kind, (kinds.get(place.kind) ?? 0) + 1);
+          const most = sum * (isMissing ? PARTLY : 1), { worth = 1, exact = worth } = place;
+          if (most * exact <= score) continue;
+          const near = this.#nearness(place, of, at === first ? -1 : first);
+          const own = most * (near > EXACT ? exact : worth) * (1 - NEARNESS + NEARNESS * near);
+          if (own > score) [best, score, missing] = [at, own, isMissing];
         }
-        if (missing > 0 && costs.length > 1) {
-          const scattered = this.#scattered(costs, first, end);
-          if (scattered && scattered.rank < rank) [best, rank, missing] = [scattered.at, scattered.rank, 0];
-        }
-        if (best >= 0) cards.push({ number, at: best, rank, missing });
+        if (best < 0) continue;
+        cards.push({ number, at: best, score: Math.round(score * STEPS), missing });
+        bestOfAll = Math.max(bestOfAll, cards.at(-1).score);
       }
       yield;
-      const chosen = this.#chosen(cards);
+      const chosen = cards.filter(({ score, missing }) => !missing || score > AS_GOOD * bestOfAll);
       yield;
       const ordered = this.#ordered(chosen);
       yield;
-      return { costs, weights, kinds, cards: ordered };
+      return { of, kinds, cards: ordered };
     }
 
-    // Those that have all words, and those without that are better all the same; where none has all, those that are nearly as good as the best.
-    #chosen(cards) {
-      let best = Infinity, bestOfAll = Infinity;
-      for (const { rank, missing } of cards) {
-        if (missing === 0 && rank < best) best = rank;
-        if (rank < bestOfAll) bestOfAll = rank;
+    // How well words of the page fit a word of the question. Of a phrase that means the same, and of the parts of a compound, a name has to have all.
+    static #fits(meanings) {
+      const words = new Map(), phrases = [];
+      for (const { like, sets, parts, extra } of meanings) {
+        for (const [word, grade] of like ?? []) words.set(word, Math.max(words.get(word) ?? 0, GRADE[grade] * extra));
+        if (sets) phrases.push({ sets, extra });
+        if (parts) phrases.push({ sets: parts.map(WordIndex.#anyOf), extra });
       }
-      const limit = best === Infinity ? bestOfAll + AS_GOOD * 64 : best;
-      return cards.filter(({ rank, missing }) => missing === 0 || rank < limit);
+      return { words, phrases };
     }
 
-    // A card that has all words, but no place of it: after the others, and shown where most of them are.
-    #scattered(costs, first, end) {
-      let at = -1, most = 0, rank = SCATTERED * 64;
-      for (const cost of costs) {
-        let least = NEVER;
-        for (let one = first; one < end; one++) if (cost[one] < least) least = cost[one];
-        if (least === NEVER) return null;
-        rank += least * 64;
+    static #anyOf(meanings) {
+      const { words, phrases } = WordIndex.#fits(meanings);
+      return new Set([...words.keys(), ...phrases.flatMap(({ sets }) => sets.flatMap((set) => [...set.keys()]))]);
+    }
+
+    // How much of a name is asked for, and how much it has of each word of the question, and of its stop words. This is done for every name of a page.
+    #compared(name, { fits, stops }) {
+      const asked = this.#asked, had = [];
+      let whole = 0, part = 0, stopped = 0;
+      for (let at = 0; at < name.length; at++) {
+        asked[at] = stops.has(name[at]) ? 1 : 0;
+        stopped += asked[at];
       }
-      for (let one = first; one < end; one++) {
-        let count = 0;
-        for (const cost of costs) if (cost[one] < NEVER) count += 1;
-        if (count > most) [at, most] = [one, count];
+      for (const { words, phrases } of fits) {
+        let most = 0;
+        for (let at = 0; at < name.length; at++) {
+          const fit = words.get(name[at]) ?? 0;
+          if (fit > most) most = fit;
+          if (fit > asked[at]) asked[at] = fit;
+        }
+        for (const { sets, extra } of phrases) {
+          if (!sets.every((set) => name.some((word) => set.has(word)))) continue;
+          if (extra > most) most = extra;
+          for (let at = 0; at < name.length; at++) if (extra > asked[at] && sets.some((set) => set.has(name[at]))) asked[at] = extra;
+        }
+        had.push(most);
       }
-      return { at, rank };
+      for (let at = 0; at < name.length; at++) {
+        const weight = this.#weights[name[at]];
+        whole += weight;
+        part += weight * asked[at];
+      }
+      return part > 0 ? { asked: part / whole, had, stops: stopped } : NOTHING;
+    }
+    #asked = [];
+
+    // How near what a place is called is to the question: 1 if both have the same words. A row is called like its card, too.
+    #nearness(place, of, head) {
+      let nearest = 0;
+      const { compared, gains, weights, all } = of;
+      for (const name of place.names) {
+        const own = compared[name.number] ??= this.#compared(name, of);
+        if (own.asked === 0) continue;
+        let had = LITTLE * own.stops;
+        for (let word = 0; word < weights.length; word++) had += weights[word] * Math.max(own.had[word], this.#ofCard(gains[word], head) / FULL);
+        had *= FULL / all;
+        nearest = Math.max(nearest, 2 * own.asked * had / (own.asked + had));
+      }
+      return nearest;
     }
 
     // Only as many as a reader looks at have to be in order at once.
     #ordered(cards) {
       // Of equals, the one with the plainer name, then the one that more depends on.
-      const words = ({ number }) => this.places[this.cards[number].first].names.at(-1)?.length ?? 0;
+      const length = ({ number }) => this.places[this.cards[number].first].length;
       const uses = ({ number }) => this.cards[number].uses ?? 0;
-      const order = (one, other) => one.rank - other.rank || words(one) - words(other) || uses(other) - uses(one) || one.number - other.number;
+      const order = (one, other) => other.score - one.score || length(one) - length(other) || uses(other) - uses(one) || one.number - other.number;
       if (cards.length <= READ_AT_ONCE) return cards.sort(order);
-      const last = Uint32Array.from(cards, ({ rank }) => rank).sort()[READ_AT_ONCE];
-      const before = cards.filter(({ rank }) => rank < last).sort(order), equal = cards.filter(({ rank }) => rank === last);
-      return [...before, ...(equal.length <= READ_AT_ONCE ? equal.sort(order) : equal), ...cards.filter(({ rank }) => rank > last)];
+      const last = Uint32Array.from(cards, ({ score }) => score).sort().at(-READ_AT_ONCE);
+      const before = cards.filter(({ score }) => score > last).sort(order), equal = cards.filter(({ score }) => score === last);
+      return [...before, ...(equal.length <= READ_AT_ONCE ? equal.sort(order) : equal), ...cards.filter(({ score }) => score < last)];
     }
 
     // The places of a card that answer the whole question, or else those that have most of it.
-    placesOf({ number }, { costs, weights }) {
-      const { first } = this.cards[number];
-      let least = Infinity, places = [];
+    placesOf({ number }, { of }) {
+      const { first } = this.cards[number], complete = [];
+      let most = 0, places = [];
       for (let at = first; at < this.#end(number); at++) {
-        if (this.#sum(costs, weights, at, first) < 0 || this.#missing > least) continue;
-        if (this.#missing < least) [least, places] = [this.#missing, []];
-        places.push(at);
+        const sum = this.#sum(of, at, first);
+        if (sum < 0) continue;
+        if (!this.#isMissing) complete.push(at);
+        if (sum > most) [most, places] = [sum, []];
+        if (sum === most) places.push(at);
       }
-      return places;
-    }
-
-    // Whether the question has all words of a phrase of several.
-    #holds({ parts }, asked) {
-      return parts.length > 1 && parts.every((word) => asked.some((set) => set.has(word)));
-    }
-
-    // How near a name is to the question, as a number below 64: the same, begins so, holds it, has all its words; what is put last (`later`) is.
-    #near(place, [whole, meant, words], asked) {
-      let near = 50;
-      const far = ({ words, length }) => (asked.every((set) => words.some((word) => set.has(word))) ? 38 + Math.min(length, 7) : 50);
-      for (const one of place.names) {
-        let own = one.name === whole ? 0 : far(one);
-        if (own > HOLDS && one.length > 1 && whole.includes(one.name)) own = HOLDS;
-        if (own > 0 && one.name.includes(whole)) own = (one.name.startsWith(whole) ? 10 : HOLDS) + Math.min(one.length, 7);
-        near = Math.min(near, own);
-      }
-      // The code of an error is a name, too, and no other place is meant by it.
-      if (place.kind === "error" && place.code !== undefined && words.includes(place.code)) near = Math.min(near, HOLDS - 1);
-      for (const one of place.phrases) {
-        near = Math.min(near, one.meant === meant ? SOUGHT : far(one));
-      }
-      return near + (place.later ? LATER : 0);
+      return complete.length > 0 ? complete : places;
     }
 
     // The pieces of a text that the question means: pairs of beginning and end.

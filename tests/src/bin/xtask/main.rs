@@ -38,7 +38,7 @@ use tools::Tool;
 /// The command line cannot be understood.
 const USAGE: u8 = 2;
 
-/// How many parts run beside those of cargo: a browser and an emulator wait for each other's answers half of the time.
+/// How many parts run at the same time as those of cargo: a browser and an emulator wait for each other's answers half of the time.
 const BESIDE: usize = 2;
 
 fn main() -> ExitCode {
