@@ -2,6 +2,7 @@
 """Use the generated documents like a reader: in Chromium, on paper, and through Asciidoctor.
 
     run.py [--sample] DOCS...
+    run.py --page PAGE ODGEN    only uses the page of the command, and compares it with the command
     run.py --install    only installs what npm brings
 
 DOCS are directories with HTML pages, `workbench.json` (what their tools have to show), `dump.json` and `context.json`
@@ -30,12 +31,22 @@ CACHE = HERE.parent.parent / "target" / "browser"
 FILES = ["package.json", "package-lock.json", ".npmrc"]
 SCRIPTS = [
     *["browser.mjs", "check.mjs", "workbench.mjs", "questions.mjs", "questions.json", "widths.mjs", "portal.mjs", "hostile.mjs"],
-    *["asciidoc.mjs", "validate.mjs", "slices.mjs", "words.mjs"],
+    *["asciidoc.mjs", "validate.mjs", "slices.mjs", "words.mjs", "page.mjs"],
 ]
 TEMPLATES = HERE.parent.parent / "docs-gen" / "templates" / "html"
 SEARCH = [str(TEMPLATES / name) for name in ["_words.js", "_search.js"]]
 # Two cores are what a machine has at least.
 AT_ONCE = 2
+# What is dropped onto the page of the command.
+DROPPED = ["tests/eds/*", "generated/eds/*", "od-spec/devices/*.od.yaml", "od-gen/cli/tests/cli/eds/*.xdd"]
+# A node of the kind `pmc`: it is read, sends its state, and starts.
+TRACE = """\
+(1700000000.000100) can0 605#4041600000000000
+(1700000000.000900) can0 585#4B41600037020000
+(1700000000.001000) can0 705#05
+(1700000000.002000) can0 185#3702
+(1700000000.003000) can0 000#0105
+"""
 BROWSERS = ["chromium", "chromium-browser", "google-chrome", "chrome"]
 
 
@@ -84,6 +95,30 @@ def is_only_asked(docs: Path) -> bool:
     return (docs / "workbench.json").exists() and not (docs / "dump.json").exists()
 
 
+def large(objects: int) -> str:
+    """An EDS with many objects."""
+    indices = [f"{0x2000 + number:04X}" for number in range(objects)]
+    lists = ["[FileInfo]", "FileName=large.eds", "[DeviceInfo]", "VendorName=Example", "BaudRate_125=1"]
+    lists += ["[MandatoryObjects]", "SupportedObjects=1", "1=0x1000", "[1000]", "ParameterName=Device type"]
+    lists += ["ObjectType=0x7", "DataType=0x0007", "AccessType=ro", "DefaultValue=0", "PDOMapping=0"]
+    lists += ["[ManufacturerObjects]", f"SupportedObjects={objects}"]
+    lists += [f"{number}=0x{index}" for number, index in enumerate(indices, 1)]
+    fields = "ObjectType=0x7\nDataType=0x0006\nAccessType=rw\nDefaultValue=7\nPDOMapping=1"
+    lists += [f"[{index}]\nParameterName=value {index}\n{fields}" for index in indices]
+    return "\n".join(lists).replace("\n", "\r\n") + "\r\n"
+
+
+def use_page(node: str, browser: str, folder: Path, page: str, odgen: str) -> int:
+    """Uses the page of the command on files of the tests and of the shipped devices."""
+    root, made = HERE.parent.parent, CACHE / "page"
+    made.mkdir(parents=True, exist_ok=True)
+    (made / "bus.log").write_text(TRACE, encoding="ascii")
+    (made / "large.eds").write_text(large(10_000), encoding="ascii", newline="")
+    dropped = [path for pattern in DROPPED for path in sorted(root.glob(pattern)) if path.suffix in (".eds", ".dcf", ".xdd", ".yaml")]
+    files = map(str, [made / "large.eds", *dropped, made / "bus.log"])
+    return subprocess.run([node, str(folder / "page.mjs"), page, browser, odgen, *files], check=False).returncode
+
+
 def main() -> int:
     try:
         node, browser = program(["node"], "nodejs"), os.environ.get("CHROMIUM") or program(BROWSERS, "chromium")
@@ -91,6 +126,8 @@ def main() -> int:
         folder = install()
         if sys.argv[1:] == ["--install"]:
             return 0
+        if sys.argv[1:2] == ["--page"]:
+            return use_page(node, browser, folder, *sys.argv[2:])
     except Missing as error:
         print(f"error: {error}", file=sys.stderr)
         return 3

@@ -40,7 +40,7 @@ impl Limits {
 }
 
 /// Does some work. If it exceeds a limit, `exceeded` is called once while it runs; the work itself cannot be interrupted, so that
-/// `exceeded` has to end the process.
+/// `exceeded` has to end the process. Where the system has no threads, there is no limit.
 pub(crate) fn limited<T>(
     limits: Limits,
     exceeded: impl FnOnce(Exceeded) + Send,
@@ -50,13 +50,14 @@ pub(crate) fn limited<T>(
     let (before, start) = (used(), Instant::now());
     thread::scope(|scope| {
         let (work_lasts, until_it_ends) = channel::<()>();
-        scope.spawn(move || {
+        let watch = move || {
             while until_it_ends.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
                 if let Some(limit) = limits.exceeded(used().saturating_sub(before), start.elapsed()) {
                     return exceeded(limit);
                 }
             }
-        });
+        };
+        let _ = thread::Builder::new().spawn_scoped(scope, watch);
         let result = work();
         drop(work_lasts);
         result

@@ -1,11 +1,16 @@
 //! `odgen`: checks specifications of CANopen object dictionaries and makes files from them.
 
+// The page `odgen.html` has the commands that need no bus, no terminal and no editor.
+#![cfg_attr(target_family = "wasm", expect(dead_code, reason = "only the other commands use it"))]
+
 mod bus_nodes;
 mod commands;
 mod exit;
+#[cfg(not(target_family = "wasm"))]
 mod interrupt;
 mod language;
 mod limits;
+#[cfg(not(target_family = "wasm"))]
 mod link;
 mod listing;
 mod logo;
@@ -25,17 +30,22 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{CommandFactory as _, Parser, Subcommand};
+#[cfg(not(target_family = "wasm"))]
+use clap::CommandFactory as _;
+use clap::{Parser, Subcommand};
 
 use commands::{
-    build, check, completions, concise, dbc, dcf, decode, diff, docs, dump, errata, explain, fix, fmt,
-    import, library, lsp, new, node, params, plant, reference, schema, serve, st,
+    build, check, concise, dbc, dcf, decode, diff, docs, dump, errata, explain, fix, fmt, import, library,
+    new, params, reference, schema, st,
 };
+#[cfg(not(target_family = "wasm"))]
+use commands::{completions, lsp, node, plant, serve};
 use messages::{Color, Format};
 use od_spec::xdd::Disabled;
 use report::Report;
 
 /// The work of the command is many small pieces of memory, given back in bulk.
+#[cfg(not(target_family = "wasm"))]
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
@@ -99,16 +109,20 @@ enum Command {
     /// Format specifications: indentation and spaces; comments, order and facts stay
     Fmt(fmt::FmtArgs),
     /// Run the language server (Language Server Protocol on standard input and output)
+    #[cfg(not(target_family = "wasm"))]
     Lsp(lsp::LspArgs),
     /// Write a commented specification and, with `--firmware`, a firmware project for it
     New(new::NewArgs),
     /// Read, write, back up and watch nodes on a bus, through an SLCAN adapter (TCP or serial) or a CAN interface
+    #[cfg(not(target_family = "wasm"))]
     Node(node::NodeArgs),
     /// Make a parameter file from a DCF: the values that differ from the defaults, by name and in units
     Params(params::ParamsArgs),
     /// Build, check or show a plant file: the nodes of many machines, with values inherited from type, site and machine
+    #[cfg(not(target_family = "wasm"))]
     Plant(plant::PlantArgs),
     /// Run virtual nodes that any client can reach through SLCAN (TCP or a pseudo-terminal) or a CAN interface
+    #[cfg(not(target_family = "wasm"))]
     Serve(serve::ServeArgs),
     /// Generate Structured Text (IEC 61131-3) for PLC programs: constants, enums, bits, unit conversions, PDOs
     St(st::StArgs),
@@ -121,6 +135,7 @@ enum Command {
     /// Print the JSON Schema of the language, or of the parameter files of a device, for editors
     Schema(schema::SchemaArgs),
     /// Print a completion script for a shell
+    #[cfg(not(target_family = "wasm"))]
     Completions(completions::CompletionsArgs),
 }
 
@@ -139,9 +154,12 @@ impl Cli {
             Command::Fix(args) => args.messages.format,
             Command::Fmt(args) => args.messages.format,
             Command::New(args) => args.messages.format,
+            #[cfg(not(target_family = "wasm"))]
             Command::Node(args) => args.command.message_format(),
             Command::Params(args) => args.messages.format,
+            #[cfg(not(target_family = "wasm"))]
             Command::Plant(args) => args.command.message_format(),
+            #[cfg(not(target_family = "wasm"))]
             Command::Serve(args) => args.messages.format,
             Command::St(args) => args.messages.format,
             _ => None,
@@ -172,17 +190,22 @@ fn main() -> ExitCode {
         Command::Import(args) => import::run(&args, &report),
         Command::Fix(args) => fix::run(&args, &report),
         Command::Fmt(args) => fmt::run(&args, directory, &report),
+        #[cfg(not(target_family = "wasm"))]
         Command::Lsp(_) => lsp::run(&report),
         Command::New(args) => new::run(&args, &report),
+        #[cfg(not(target_family = "wasm"))]
         Command::Node(args) => node::run(&args, directory, &report),
         Command::Params(args) => params::run(&args, &report),
+        #[cfg(not(target_family = "wasm"))]
         Command::Plant(args) => plant::run(&args, &report),
+        #[cfg(not(target_family = "wasm"))]
         Command::Serve(args) => serve::run(&args, directory, &report),
         Command::St(args) => st::run(&args, directory, &report),
         Command::Explain(args) => explain::run(&args),
         Command::Library(args) => library::run(&args, &report),
         Command::Reference => reference::run(),
         Command::Schema(args) => schema::run(&args, &report),
+        #[cfg(not(target_family = "wasm"))]
         Command::Completions(args) => completions::run(&args, &mut Cli::command()),
     };
     ExitCode::from(code)

@@ -7,13 +7,16 @@ use std::sync::mpsc;
 use std::thread;
 
 /// Does the work on each item. Whenever an item is finished, `each` gets the number of finished ones, and the results that are
-/// next in order.
+/// next in order. One core works without a thread of its own, which not every system has.
 pub(crate) fn in_order<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&T) -> R + Sync,
     mut each: impl FnMut(usize, Vec<R>),
 ) {
     let workers = thread::available_parallelism().map_or(1, NonZero::get).min(items.len());
+    if workers <= 1 {
+        return (1..).zip(items).for_each(|(finished, item)| each(finished, vec![work(item)]));
+    }
     let next = AtomicUsize::new(0);
     let (sender, receiver) = mpsc::channel();
     thread::scope(|scope| {

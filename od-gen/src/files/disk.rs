@@ -46,7 +46,7 @@ impl Disk for Real {
         let mut file = File::create_new(path)?;
         if let Some(like) = like {
             keep_owner(&file, like)?;
-            file.set_permissions(like.permissions())?;
+            keep_mode(&file, like)?;
         }
         match pieces {
             [piece] => file.write_all(piece)?,
@@ -139,5 +139,16 @@ fn keep_owner(file: &File, like: &Metadata) -> io::Result<()> {
 
 #[cfg(not(unix))]
 fn keep_owner(_: &File, _: &Metadata) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(not(target_family = "wasm"))]
+fn keep_mode(file: &File, like: &Metadata) -> io::Result<()> {
+    file.set_permissions(like.permissions())
+}
+
+/// Files of a page have no mode.
+#[cfg(target_family = "wasm")]
+fn keep_mode(_: &File, _: &Metadata) -> io::Result<()> {
     Ok(())
 }

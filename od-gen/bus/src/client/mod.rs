@@ -11,6 +11,7 @@ mod probe;
 mod recognize;
 mod restore;
 mod scan;
+#[cfg(not(target_family = "wasm"))]
 mod serial;
 #[cfg(test)]
 mod tests;
@@ -27,6 +28,7 @@ pub use self::probe::{Found, Holds, Prober};
 pub use self::recognize::{Contradiction, Fact, Remark, Revision, introduced, recognize};
 pub use self::restore::{involved, judged, kept, plan, value};
 pub use self::scan::{Answer, Heard, Identity, scan};
+#[cfg(not(target_family = "wasm"))]
 pub use self::serial::Serial;
 pub use crate::restarts::Restart;
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod build;
 pub(crate) mod check;
+#[cfg(not(target_family = "wasm"))]
 pub(crate) mod completions;
 pub(crate) mod concise;
 pub(crate) mod dbc;
@@ -16,12 +17,16 @@ pub(crate) mod fix;
 pub(crate) mod fmt;
 pub(crate) mod import;
 pub(crate) mod library;
+#[cfg(not(target_family = "wasm"))]
 pub(crate) mod lsp;
 pub(crate) mod new;
+#[cfg(not(target_family = "wasm"))]
 pub(crate) mod node;
 pub(crate) mod params;
+#[cfg(not(target_family = "wasm"))]
 pub(crate) mod plant;
 pub(crate) mod reference;
 pub(crate) mod schema;
+#[cfg(not(target_family = "wasm"))]
 pub(crate) mod serve;
 pub(crate) mod st;

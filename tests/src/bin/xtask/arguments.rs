@@ -25,6 +25,8 @@ pub(crate) enum Task {
     /// Measure the reading of EDS files and compare with other readers, with the arguments of
     /// tests/bench/eds/reading.py.
     BenchReading(Vec<String>),
+    /// Write the command as a page.
+    Web,
     /// Print a text about a task, or about all.
     Help(String),
 }
@@ -72,6 +74,7 @@ cargo xtask TASK
   bench [ARGUMENT…]   compare odgen with other tools; `bench --help` lists the arguments
   bench eds [ARGUMENT…]
                       compare the reading of EDS files with other readers; `bench eds --help` lists the arguments
+  web                 write the command as one HTML page, target/web/odgen.html
   help [TASK]         this text, or one about a task
 ";
 
@@ -105,6 +108,13 @@ const GENERATE: &str = "\
 cargo xtask generate [--check]
 
 Rewrites everything that is generated and checked in. With --check it writes nothing, and fails with the first difference.
+";
+
+const WEB: &str = "\
+cargo xtask web
+
+Compiles odgen to WebAssembly and writes target/web/odgen.html, a page that has it inside and asks for nothing from anywhere. It takes minutes;
+`cargo xtask test page` does it, too, and tries the page. It needs Rust's target wasm32-wasip1: `rustup target add wasm32-wasip1`.
 ";
 
 const CORPUS: &str = "\
@@ -172,6 +182,7 @@ pub(crate) fn parse(arguments: &[&str]) -> Result<Task, String> {
         ["test", options @ ..] => test(options).map(Task::Test),
         ["generate"] => Ok(Task::Generate),
         ["generate", "--check"] => Ok(Task::CheckGenerated),
+        ["web"] => Ok(Task::Web),
         ["corpus", directory] => Ok(Task::Corpus((*directory).to_owned(), 1)),
         ["corpus", directory, "--every", count] => match count.parse() {
             Ok(count) if count > 0 => Ok(Task::Corpus((*directory).to_owned(), count)),
@@ -196,6 +207,7 @@ fn help(task: &str) -> Result<Task, String> {
         "generate" => Ok(Task::Help(GENERATE.to_owned())),
         "corpus" => Ok(Task::Help(CORPUS.to_owned())),
         "fuzz" => Ok(Task::Help(FUZZ.to_owned())),
+        "web" => Ok(Task::Help(WEB.to_owned())),
         "bench" => Ok(Task::Help(BENCH.to_owned())),
         "help" => Ok(Task::Help(HELP.to_owned())),
         _ => Err(format!("there is no task `{task}`")),
@@ -255,6 +267,7 @@ mod tests {
         let named = Choice::Named(vec!["browser".to_owned(), "sdo".to_owned()]);
         assert_eq!(parse(&["test", "browser", "sdo"]), Ok(refused(named)));
         assert_eq!(parse(&["check"]), Ok(Task::Check));
+        assert_eq!(parse(&["web"]), Ok(Task::Web));
         assert_eq!(parse(&["generate"]), Ok(Task::Generate));
         assert_eq!(parse(&["generate", "--check"]), Ok(Task::CheckGenerated));
         assert_eq!(parse(&["corpus", "eds"]), Ok(Task::Corpus("eds".to_owned(), 1)));
@@ -272,7 +285,7 @@ mod tests {
         let lines =
             HELP.lines().filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
         let tasks: Vec<&str> = lines.filter_map(|line| line.split(' ').next()).collect();
-        assert_eq!(tasks, ["check", "test", "generate", "corpus", "fuzz", "bench", "bench", "help"]);
+        assert_eq!(tasks, ["check", "test", "generate", "corpus", "fuzz", "bench", "bench", "web", "help"]);
         for task in tasks {
             assert!(matches!(parse(&["help", task]), Ok(Task::Help(_))), "{task}");
         }

@@ -21,6 +21,7 @@ mod rust_tests;
 mod summary;
 mod tools;
 mod virtual_nodes;
+mod web;
 mod workbench;
 
 use std::collections::BTreeSet;
@@ -57,6 +58,7 @@ fn main() -> ExitCode {
         Ok(Task::Fuzz(rest)) => fuzz(&rest),
         Ok(Task::Bench(rest)) => bench("tests/bench/run.py", &rest),
         Ok(Task::BenchReading(rest)) => bench("tests/bench/eds/reading.py", &rest),
+        Ok(Task::Web) => web::build(&mut Runner::default()).map(drop),
         Ok(Task::Help(text)) => {
             print!("{text}");
             Ok(())

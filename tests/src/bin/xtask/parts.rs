@@ -7,7 +7,7 @@ use od_tests::Failure;
 
 use crate::runner::Runner;
 use crate::tools::Tool;
-use crate::{browser, english, form, installed, manuals, misra, package, plain_c, readers, rust_tests};
+use crate::{browser, english, form, installed, manuals, misra, package, plain_c, readers, rust_tests, web};
 
 /// A part of the tests.
 pub(crate) struct Part {
@@ -89,6 +89,7 @@ const NODE: &[Tool] = &[Tool::Node];
 const BROWSER: &[Tool] = &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext];
 const PAPER: &[Tool] = &[Tool::Python, Tool::Pdftotext, Tool::Pango];
 const THUMB: &[Tool] = &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker];
+const PAGE: &[Tool] = &[Tool::Python, Tool::Node, Tool::Chromium, Tool::Pdftotext, Tool::PageTarget];
 const WINDOWS: &[Tool] = &[Tool::WindowsTarget, Tool::Mingw, Tool::Wine];
 const EMULATOR: &[Tool] = &[Tool::Python, Tool::ThumbTarget, Tool::ThumbLinker, Tool::Qemu];
 const STARTER: &[Tool] = &[Tool::Python, Tool::Make, Tool::Clang, Tool::ThumbLinker, Tool::Qemu];
@@ -127,7 +128,7 @@ const fn reader(
 }
 
 /// All parts, in the order in which they run.
-pub(crate) static PARTS: [Part; 52] = [
+pub(crate) static PARTS: [Part; 53] = [
     rust("form", "form", Tier::Check, form::check),
     rust("english", "plain English", Tier::Check, english::check),
     rust("unit", "unit tests", Tier::Check, rust_tests::unit),
@@ -294,6 +295,18 @@ pub(crate) static PARTS: [Part; 52] = [
             "the command from a Python package",
             Tier::Long("fetches a builder of packages; the package has nothing but the program"),
             installed::wheel,
+        )
+    },
+    Part {
+        area: Area::Browser,
+        turn: Turn::First,
+        needs: PAGE,
+        installer: Some("tests/browser/run.py"),
+        ..rust(
+            "page",
+            "the command in a browser",
+            Tier::Long("compiles everything once more, optimized; the gate tests the same code as a command"),
+            web::try_page,
         )
     },
     rust(

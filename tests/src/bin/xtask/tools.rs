@@ -12,6 +12,8 @@ use od_tests::root;
 const TARGET: &str = "thumbv7em-none-eabi";
 /// The target of the command on Windows, as the compiler from Debian builds it.
 pub(crate) const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
+/// The target of the command in a page.
+pub(crate) const PAGE_TARGET: &str = "wasm32-wasip1";
 /// How long rustup may take to fetch it: a few megabytes, or a network that never answers.
 const FETCH_LIMIT: Duration = Duration::from_secs(120);
 /// Names of Chromium; the variable `CHROMIUM` names another program.
@@ -34,6 +36,7 @@ pub(crate) enum Tool {
     /// A second compiler of C, which compiles for other platforms, too; the first is the one that Rust links with.
     Clang,
     WindowsTarget,
+    PageTarget,
     /// The linker and the C compiler for Windows.
     Mingw,
     /// Runs programs for Windows.
@@ -59,6 +62,7 @@ impl Tool {
         Tool::Make,
         Tool::Clang,
         Tool::WindowsTarget,
+        Tool::PageTarget,
         Tool::Mingw,
         Tool::Wine,
         Tool::Emacs,
@@ -79,6 +83,7 @@ impl Tool {
             Tool::Make => "make",
             Tool::Clang => "clang",
             Tool::WindowsTarget => "Rust's target x86_64-pc-windows-gnu",
+            Tool::PageTarget => "Rust's target wasm32-wasip1",
             Tool::Mingw => "mingw-w64",
             Tool::Wine => "Wine",
             Tool::Emacs => "Emacs with eglot and yaml-mode",
@@ -106,6 +111,7 @@ impl Tool {
             Tool::Make => &["apt-get install make"],
             Tool::Clang => &["apt-get install clang"],
             Tool::WindowsTarget => &["rustup target add x86_64-pc-windows-gnu"],
+            Tool::PageTarget => &["rustup target add wasm32-wasip1"],
             Tool::Mingw => &["apt-get install gcc-mingw-w64-x86-64"],
             Tool::Wine => &["apt-get install wine wine64"],
             Tool::Emacs => &["apt-get install emacs-nox elpa-eglot elpa-yaml-mode"],
@@ -114,7 +120,7 @@ impl Tool {
         }
     }
 
-    fn is_here(self) -> bool {
+    pub(crate) fn is_here(self) -> bool {
         match self {
             Tool::Python => {
                 let check = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 10))";
@@ -136,6 +142,7 @@ impl Tool {
             Tool::Make => is_in_path("make"),
             Tool::Clang => is_in_path("clang"),
             Tool::WindowsTarget => has_target_of_rustc(WINDOWS_TARGET),
+            Tool::PageTarget => has_target_of_rustc(PAGE_TARGET),
             Tool::Mingw => is_in_path("x86_64-w64-mingw32-gcc"),
             Tool::Wine => is_in_path("wine"),
             Tool::Valgrind => is_in_path("valgrind"),
