@@ -91,7 +91,7 @@ pub use layout::layout;
 pub use library::shipped::{LIBRARIES, features as features_of_text};
 pub use library::{Feature, Library, LibraryObject, library, library_in};
 pub use node_of_file::NodeOfFile;
-pub use notation::{expr, name_pattern, scalar};
+pub use notation::{expr, name_pattern, scalar, words};
 pub use parameters::{
     Assigned, Assignment, Layer, OnDevice, Origin, ParameterFile, SettingDecl, SettingNames, assign,
     assign_layers, is_parameter_file, on_device, parameter_file, settings, settings_of_map,

@@ -35,8 +35,8 @@ use clap::CommandFactory as _;
 use clap::{Parser, Subcommand};
 
 use commands::{
-    build, check, concise, dbc, dcf, decode, diff, docs, dump, errata, explain, fix, fmt, import, library,
-    new, params, reference, schema, st,
+    build, check, concise, dbc, dcf, decode, diff, docs, dump, errata, explain, export, fix, fmt, import,
+    library, new, params, reference, schema, st,
 };
 #[cfg(not(target_family = "wasm"))]
 use commands::{completions, lsp, node, plant, serve};
@@ -102,8 +102,10 @@ enum Command {
     Docs(docs::DocsArgs),
     /// List where the printed manual differs from the specification
     Errata(errata::ErrataArgs),
-    /// Make a specification from an EDS, DCF, XDD or XDC
+    /// Make a specification from an EDS, DCF, XDD or XDC, or from a table of objects
     Import(import::ImportArgs),
+    /// Write the tables of a device as a workbook or as CSV, which `import` reads again
+    Export(export::ExportArgs),
     /// Repair the form of EDS and DCF files where nothing has to be guessed
     Fix(fix::FixArgs),
     /// Format specifications: indentation and spaces; comments, order and facts stay
@@ -150,6 +152,7 @@ impl Cli {
             Command::Decode(args) => args.messages.format,
             Command::Dump(args) => args.messages.format,
             Command::Errata(args) => args.messages.format,
+            Command::Export(args) => args.messages.format,
             Command::Import(args) => args.messages.format,
             Command::Fix(args) => args.messages.format,
             Command::Fmt(args) => args.messages.format,
@@ -188,6 +191,7 @@ fn main() -> ExitCode {
         Command::Dump(args) => dump::run(&args, directory, &report),
         Command::Errata(args) => errata::run(&args, directory, &report),
         Command::Import(args) => import::run(&args, &report),
+        Command::Export(args) => export::run(&args, directory, &report),
         Command::Fix(args) => fix::run(&args, &report),
         Command::Fmt(args) => fmt::run(&args, directory, &report),
         #[cfg(not(target_family = "wasm"))]

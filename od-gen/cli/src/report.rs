@@ -121,6 +121,15 @@ impl Report {
 
     /// Writes what is wrong and, for people, how much it is; notes are for `odgen check --notes`.
     pub(crate) fn show(&self, diagnostics: &Diagnostics, sources: &SourceMap) {
+        let shows = match sources.files().next() {
+            Some((_, file)) => format!("`odgen check {} --all`", visible(file.name())),
+            None => "`odgen check --all`".to_owned(),
+        };
+        self.show_with(diagnostics, sources, &shows);
+    }
+
+    /// [`show`](Self::show), with what shows the findings that are left out.
+    pub(crate) fn show_with(&self, diagnostics: &Diagnostics, sources: &SourceMap, shows: &str) {
         let diagnostics = &diagnostics.clone().without_notes();
         let mut text = match self.format {
             Format::Human => {
@@ -131,11 +140,7 @@ impl Report {
                     }
                     Some(_) | None => Most::OfSpecification,
                 };
-                let shows = match source {
-                    Some(file) => format!("`odgen check {} --all`", visible(file.name())),
-                    None => "`odgen check --all`".to_owned(),
-                };
-                for_people(diagnostics, sources, most, &shows, self.colour)
+                for_people(diagnostics, sources, most, shows, self.colour)
             }
             Format::Short => render::render(diagnostics, sources, render::Format::Short, self.colour),
             Format::Json => json(diagnostics, sources),

@@ -78,6 +78,10 @@ codes! {
         "A file that begins with `od-parameters:` says how one device is set up, one that begins with `od-plant:` which nodes a plant has. Neither describes a device: both are read together with the specification that does. `odgen check FILE` checks a parameter file that names its specification (`spec:`), `odgen dcf SPEC --params FILE --explain` any other one, `odgen plant check FILE` a plant. `odgen fmt` lays out all three."
     OTHER_BUS Error "OD0121" "a file of something else than CANopen":
         "Other fieldbuses have files of the same names: an EDS of EtherNet/IP or DeviceNet has the sections [File] and [Device], an XDD of POWERLINK a body for its own network. Nothing is read of them, written from them or fixed in them. A file that is named as an EDS but has no section is not an EDS either."
+    NO_TABLE Error "OD0122" "no table of objects":
+        "`odgen import` looks for rows of titles such as `Index`, `Sub-index`, `Name`, `Type`, `Access`, `PDO`, `Default`, `Min`, `Max` and `Unit`, or the German words for them. One row has to name the index or the sub-index, and the name or the type. Where the titles are other ones, `--columns \"Index=A, Name=C\"` says what the columns hold."
+    TABLE_CELL Warning "OD0123" "a cell of a table that is not understood":
+        "`odgen import` guesses nothing: a cell that cannot be read in exactly one way is left out, and a comment in the specification says where it is and what it holds. The same happens to what the language refuses. Correct the table and import it again, or complete the specification."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
         "A key that the language does not have at this place. Nothing is ignored silently: a misspelt `acces: ro` would otherwise change an access right. `odgen reference` lists all keys."
     WRONG_KIND Error "OD0202" "a value of the wrong kind":
@@ -396,7 +400,8 @@ codes! {
 pub use every::{
     ACCESS_FAILED, BAD_ASSIGNMENT, BAD_NODE_ID, BAD_NOTATION, BAD_TEMPLATE, BAD_TRACE_LINE, BAD_VALUE,
     CONCISE_CUT_OFF, CONCISE_TOO_LONG, DEPARTURE, IDENTIFIER_CLASH, NAMES_ALIKE, NO_CAPACITY, NO_CONNECTION,
-    NO_IDENTIFIER, NO_TERMINAL, NOT_A_LIBRARY, NOT_A_PART, NOT_IN_FIRMWARE, NOT_UTF8, OTHER_BUS,
-    OTHER_DEVICE, SET_TWICE, STACK_DIFFERS, STACK_REFUSES, TOO_LARGE, TURNED_TEXT, UNKNOWN_DEVICE,
-    UNKNOWN_ENTRY, UNKNOWN_KEY, UNKNOWN_WORD, UNREADABLE, WRITE_FAILED, XDD_DISABLED, XDD_LEFT_OUT,
+    NO_IDENTIFIER, NO_TABLE, NO_TERMINAL, NOT_A_LIBRARY, NOT_A_PART, NOT_IN_FIRMWARE, NOT_UTF8, OTHER_BUS,
+    OTHER_DEVICE, SET_TWICE, STACK_DIFFERS, STACK_REFUSES, TABLE_CELL, TOO_LARGE, TURNED_TEXT,
+    UNKNOWN_DEVICE, UNKNOWN_ENTRY, UNKNOWN_KEY, UNKNOWN_WORD, UNREADABLE, WRITE_FAILED, XDD_DISABLED,
+    XDD_LEFT_OUT,
 };

@@ -3,4 +3,4 @@
 pub mod expr;
 pub mod name_pattern;
 pub mod scalar;
-pub(crate) mod words;
+pub mod words;

@@ -19,7 +19,7 @@ fn with_number(text: &str) -> Option<(&str, u16)> {
 }
 
 /// The data type of a name: that of CiA 301, or one of C, Rust or a PLC.
-pub(crate) fn data_type(text: &str) -> Option<DataType> {
+pub fn data_type(text: &str) -> Option<DataType> {
     let lower = text.to_ascii_lowercase();
     let word = plain(lower.strip_suffix("_t").unwrap_or(&lower));
     if let Some((letters, width)) = with_number(&word) {
@@ -50,7 +50,7 @@ pub(crate) fn data_type(text: &str) -> Option<DataType> {
 }
 
 /// The number of an object type (CiA 301 table 42) by its name.
-pub(crate) fn object_code(text: &str) -> Option<u8> {
+pub fn object_code(text: &str) -> Option<u8> {
     Some(match plain(text).as_str() {
         "null" => 0,
         "domain" => 2,
@@ -64,7 +64,7 @@ pub(crate) fn object_code(text: &str) -> Option<u8> {
 }
 
 /// An access type, in the words of an EDS, an XDD or a manual.
-pub(crate) fn access(text: &str) -> Option<Access> {
+pub fn access(text: &str) -> Option<Access> {
     Some(match plain(text).as_str() {
         "const" | "constant" => Access::Const,
         "ro" | "r" | "read" | "readonly" => Access::Ro,

@@ -13,6 +13,7 @@ pub(crate) mod docs;
 pub(crate) mod dump;
 pub(crate) mod errata;
 pub(crate) mod explain;
+pub(crate) mod export;
 pub(crate) mod fix;
 pub(crate) mod fmt;
 pub(crate) mod import;

@@ -81,6 +81,25 @@ fn the_way_from_an_eds_to_a_specification_is_as_shown() {
 }
 
 #[test]
+fn a_table_is_imported_as_shown() {
+    let scratch = Scratch::new("book-table");
+    scratch.file("pump.csv", block("guides/tables.md", "table", "text"));
+    let imported = odgen(&scratch.0, &["import", "pump.csv"]);
+    let (said, done) = (stderr(&imported), stdout(&imported));
+    let lines = ["$ odgen import pump.csv"].into_iter().chain(said.lines()).chain(done.lines());
+    shows("guides/tables.md", "import", lines);
+    let specification = fs::read_to_string(scratch.0.join("pump.od.yaml")).unwrap();
+    let (_, units) = specification.split_once("\nunits:\n").unwrap();
+    shows("guides/tables.md", "specification", ["units:"].into_iter().chain(units.lines()));
+    let exported = odgen(&scratch.0, &["export", "pump.od.yaml", "--xlsx", "pump.xlsx", "--csv", "new.csv"]);
+    assert!(!stderr(&exported).contains("not in the tables"), "{}", stderr(&exported));
+    let again = odgen(&scratch.0, &["import", "pump.xlsx", "--out", "again"]);
+    assert_eq!(stderr(&again), "");
+    let same = odgen(&scratch.0, &["diff", "pump.od.yaml", "again/pump.od.yaml", "--exit-code", "documents"]);
+    assert_eq!(same.status.code(), Some(0), "{}", stdout(&same));
+}
+
+#[test]
 fn a_setting_is_checked_as_shown() {
     let scratch = Scratch::new("book-setting");
     scratch.file("valve.od.yaml", include_str!("../../../../tests/book/valve.od.yaml"));

@@ -8,7 +8,7 @@ use crate::provoked::{ADAPTER, PROVOKED};
 use crate::{Scratch, odgen, stderr};
 
 /// Name and text of each file: a lamp whose 1017h departs from cia301, a template with a mistake, a file that each of five readers
-/// refuses for something, two files that are not concise DCF, a trace with a bad line, a DCF without formulas, three
+/// refuses for something, two tables, two files that are not concise DCF, a trace with a bad line, a DCF without formulas, three
 /// that are no XDD, and an XDD with a fault of each kind.
 const FILES: &[(&str, &str)] = &[
     (
@@ -26,6 +26,8 @@ const FILES: &[(&str, &str)] = &[
         "[DeviceInfo]\nBaudRate_125=1\n[DeviceComissioning]\nNodeID=5\nBaudrate=125\n\
          [1014]\nParameterName=EMCY\nDataType=7\nAccessType=rw\nDefaultValue=0x85\n",
     ),
+    ("titles.csv", "colour;size\nred;5\n"),
+    ("cells.csv", "Index;Name;Type;Access\n2000h;level;UNSIGNED16;always\n2001h;limit;U8;rw\n"),
     ("open.xdd", "<a>"),
     ("typed.xdd", "<!DOCTYPE a><a/>"),
     ("other.xdd", "<a/>"),

@@ -54,6 +54,19 @@ pub(super) fn forget(entry: &mut Entry) {
     entry.eds.no_scan = false;
 }
 
+/// Lets the EDS show what follows from an entry where a specification says nothing about that; `false` if it does so
+/// already.
+pub fn follow(entry: &mut Entry) -> bool {
+    let mut before = entry.eds;
+    forget(entry);
+    entry.eds.default = default_shown(entry, EdsDefaults::Safe);
+    if entry.default.is_none() {
+        // There is nothing to withhold.
+        before.default = entry.eds.default;
+    }
+    entry.eds != before
+}
+
 /// Where the EDS shows something else than follows from the entry.
 pub(super) fn keys(entry: &Entry, defaults: EdsDefaults) -> Vec<Item> {
     let mut items = Vec::new();

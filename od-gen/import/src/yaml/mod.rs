@@ -11,6 +11,7 @@ mod device;
 mod eds;
 mod emit;
 mod entry;
+mod errors;
 mod features;
 mod fold;
 mod further;
@@ -41,6 +42,7 @@ use od_spec::model::{Dictionary, EntryId, Index, System, Value};
 use od_spec::{LIBRARIES, Library, library, library_in};
 
 use context::Style;
+pub use eds::follow as forget_eds_policy;
 use mend::Draft;
 pub(crate) use node::{Item, Node};
 pub use options::{Options, Place};
@@ -48,6 +50,7 @@ use remarks::Remarks;
 pub use remarks::Repair;
 pub use scalar::spelled;
 pub(crate) use value::value;
+pub use value::value_text;
 
 /// A document of these keys.
 pub(crate) fn written(items: &[Item]) -> String {
@@ -140,7 +143,6 @@ fn leave_out(draft: &mut Draft) -> Vec<String> {
         "the printed manual and its revisions".to_owned(),
         document.source.is_some() || document.revision.is_some(),
     );
-    say("error codes".to_owned(), !system.errors.is_empty());
     say("state machines".to_owned(), !system.machines.is_empty());
     say("constraints".to_owned(), !system.constraints.is_empty());
     say("errata".to_owned(), !system.errata.is_empty());

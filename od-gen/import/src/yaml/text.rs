@@ -10,7 +10,7 @@ use super::features::{self, Chosen};
 use super::node::{Item, Node};
 use super::options::Options;
 use super::remarks::Remarks;
-use super::{departures, device, objects, pdo_obstacles, pdos, runs, types};
+use super::{departures, device, errors, objects, pdo_obstacles, pdos, runs, types};
 
 /// A device as a specification in a style. Libraries of the style from which nothing is taken are not used.
 pub(super) fn write(
@@ -57,6 +57,7 @@ fn attempt(context: &Context<'_>) -> (Written, Vec<String>) {
     section(Item::new("units", Node::Block(types::units(context, &named("unit")))));
     section(Item::new("types", Node::Block(types::types(context, &named("type")))));
     section(Item::new("objects", objects));
+    section(Item::new("errors", Node::Block(errors::items(context))));
     section(Item::new("pdos", Node::Block(pdos::items(context, &short_pdos))));
     let mut written = emit::write(&items);
     let foot = context.options.foot.iter().flat_map(|line| head_line(line));

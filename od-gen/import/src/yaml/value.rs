@@ -20,6 +20,15 @@ pub(crate) fn value(index: Index, entry: &Entry, value: &Value) -> Node {
     }
 }
 
+/// A default, or a limit, as its text without the quotes of YAML.
+pub fn value_text(index: Index, entry: &Entry, of: &Value) -> String {
+    match value(index, entry, of) {
+        Node::Text(text) | Node::Plain(text) => text,
+        // A value is never a list or a map.
+        Node::List(_) | Node::Map(_) | Node::Block(_) => String::new(),
+    }
+}
+
 fn integer(index: Index, entry: &Entry, raw: i128) -> Node {
     if entry.data_type.range() == Some((0, 1)) {
         return Node::yes_no(raw != 0);

@@ -50,7 +50,7 @@ pub(crate) enum Tool {
 }
 
 impl Tool {
-    pub(crate) const ALL: [Tool; 16] = [
+    pub(crate) const ALL: [Tool; 17] = [
         Tool::Python,
         Tool::Node,
         Tool::Chromium,

@@ -1029,22 +1029,25 @@ static uint32_t carry_out(const od_table_t *table, od_row_t row, const od_applic
 {
     uint16_t index = 0U;
     uint8_t sub = 0U;
-    uint32_t code = OD_ABORT_NOT_STORED;
     (void)od_id(table, row, &index, &sub);
-    if ((application != NULL) && (application->command != NULL)) {
-        code = application->command(application->context, index, sub);
-    }
-    return code;
+    return ((application != NULL) && (application->command != NULL))
+        ? application->command(application->context, index, sub)
+        : OD_ABORT_NOT_STORED;
+}
+
+/** The application's veto. */
+static uint32_t accept(od_row_t row, const uint8_t *data, size_t length, const od_application_t *application)
+{
+    return ((application != NULL) && (application->accept != NULL))
+        ? application->accept(application->context, row, data, length)
+        : OD_OK;
 }
 
 /** Puts a value that passed every check, unless the application refuses it. */
 static uint32_t take_value(
     uint8_t *image, od_found_t holder, const uint8_t *data, size_t length, const od_application_t *application)
 {
-    uint32_t code = OD_OK;
-    if ((application != NULL) && (application->accept != NULL)) {
-        code = application->accept(application->context, holder.row, data, length);
-    }
+    uint32_t code = accept(holder.row, data, length, application);
     if (code == OD_OK) {
         put(image, holder, data, length);
         if ((application != NULL) && (application->changed != NULL)) {
