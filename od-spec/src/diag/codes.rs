@@ -80,8 +80,6 @@ codes! {
         "Other fieldbuses have files of the same names: an EDS of EtherNet/IP or DeviceNet has the sections [File] and [Device], an XDD of POWERLINK a body for its own network. Nothing is read of them, written from them or fixed in them. A file that is named as an EDS but has no section is not an EDS either."
     NO_TABLE Error "OD0122" "no table of objects":
         "`odgen import` looks for rows of titles such as `Index`, `Sub-index`, `Name`, `Type`, `Access`, `PDO`, `Default`, `Min`, `Max` and `Unit`, or the German words for them. One row has to name the index or the sub-index, and the name or the type. Where the titles are other ones, `--columns \"Index=A, Name=C\"` says what the columns hold."
-    TABLE_CELL Warning "OD0123" "a cell of a table that is not understood":
-        "`odgen import` guesses nothing: a cell that cannot be read in exactly one way is left out, and a comment in the specification says where it is and what it holds. The same happens to what the language refuses. Correct the table and import it again, or complete the specification."
     UNKNOWN_KEY Error "OD0201" "an unknown key":
         "A key that the language does not have at this place. Nothing is ignored silently: a misspelt `acces: ro` would otherwise change an access right. `odgen reference` lists all keys."
     WRONG_KIND Error "OD0202" "a value of the wrong kind":
@@ -288,6 +286,8 @@ codes! {
         )]
     ISSUE_ORDER Warning "OD0867" "an issue of the manual out of order":
         "`history:` lists the issues of the manual from the first to the last, or the other way round, and `revision:` says which one the specification is of. Where a date goes back, a digit is wrong or the issue is in the wrong place."
+    TABLE_CELL Warning "OD0868" "a cell of a table that is not understood":
+        "`odgen import` guesses nothing: a cell that cannot be read in exactly one way is left out, and a comment in the specification says where it is and what it holds. The same happens to what the language refuses. Correct the table and import it again, or complete the specification."
         [Example::new(
             "revision: {number: \"1.1\", date: 2020-05-27}\nhistory: [{number: \"1.0\", date: 2021-02-01}, {number: \"1.1\", date: 2020-05-27}]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro}",
             "revision: {number: \"1.1\", date: 2020-05-27}\nhistory: [{number: \"1.0\", date: 2019-02-01}, {number: \"1.1\", date: 2020-05-27}]\nobjects:\n  0x2000: {name: level, type: unsigned8, access: ro}"

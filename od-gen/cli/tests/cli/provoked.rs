@@ -26,7 +26,7 @@ pub(crate) const PROVOKED: &[Provocation] = &[
     Provocation { code: "EDS808", arguments: READERS },
     Provocation { code: "OD0101", arguments: &["check", "missing.od.yaml"] },
     Provocation { code: "OD0122", arguments: &["import", "titles.csv"] },
-    Provocation { code: "OD0123", arguments: &["import", "cells.csv"] },
+    Provocation { code: "OD0868", arguments: &["import", "cells.csv"] },
     Provocation { code: "OD0701", arguments: &["dcf", "lamp.od.yaml", "--device", "lamp", "--node", "0"] },
     Provocation {
         code: "OD0706",

@@ -9,7 +9,8 @@ use super::{SYSTEMS, text};
 const ABOUT_THE_MANUAL: [&str; 4] = ["document", "errata", "gap", "origin"];
 
 /// In the pitch system, `manual` is also a way of moving the axis by hand.
-const BY_HAND: [&str; 7] = ["and", "command", "control", "function", "functions", "operation", "status"];
+const BY_HAND: [&str; 8] =
+    ["and", "command", "control", "function", "functions", "mode", "operation", "status"];
 
 /// Words by which a text speaks of a page instead of a device.
 const OF_A_PAGE: [&str; 14] = [

@@ -72,8 +72,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "a bit goes",
         at: "  test status:",
-        find: "      3: {name: test active, about: 1 = the test is running.}",
-        replace: "      3: unused",
+        find: "      3:\n        name: test active\n        about: 1 = the test is running.\n        search: {en: [battery test running, test in progress], de: Batterietest läuft}\n",
+        replace: "      3: unused\n",
         expected: &["pmm: - type `test status` (3005h), bit 3: test active [plc, firmware]"],
     },
     Case {
@@ -118,8 +118,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "another mnemonic",
         at: "  statusword:",
-        find: "mnemonic: rtso,",
-        replace: "mnemonic: rso,",
+        find: "mnemonic: rtso\n",
+        replace: "mnemonic: rso\n",
         expected: &["pmc: ~ type `statusword` (6041h), bit 0 mnemonic: meaning: rtso -> rso [documents]"],
     },
     Case {

@@ -128,8 +128,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "a lock comes",
         at: "  0x3020:",
-        find: "unit: milliampere hour, access: rw,",
-        replace: "unit: milliampere hour, access: rw locked,",
+        find: "unit: milliampere hour\n        access: rw\n",
+        replace: "unit: milliampere hour\n        access: rw locked\n",
         expected: &["pmm: ~ 3020h.2 battery parameter.nominal capacity: access: rw -> rw locked [plc]"],
     },
     Case {
@@ -210,7 +210,7 @@ pub(crate) const CASES: &[Case] = &[
         find: "collective fault, group fault",
         replace: "collective fault",
         expected: &[
-            "pmm: ~ 3000h PMM status: search: PMM state, collective fault, group fault -> PMM state, collective fault [documents]",
+            "pmm: ~ 3000h PMM status: search: …, collective fault, group fault, state of the supply -> …, collective fault, state of the supply [documents]",
         ],
     },
     Case {

@@ -6,15 +6,15 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "an error code goes",
         at: "errors:",
-        find: "  0x3120: {name: Grid under voltage, devices: pmm}\n",
+        find: "  0x3110: {name: Grid over voltage, devices: pmm, search: {en: [mains too high, mains overvoltage], de: [Netzspannung zu hoch, Netzüberspannung]}}\n",
         replace: "",
-        expected: &["pmm: - error 3120h Grid under voltage: Grid under voltage [plc, firmware]"],
+        expected: &["pmm: - error 3110h Grid over voltage: Grid over voltage [plc, firmware]"],
     },
     Case {
         name: "an error code comes",
         at: "errors:",
-        find: "  0x3120: {",
-        replace: "  0x3121: {name: Grid missing, devices: pmm}\n  0x3120: {",
+        find: "  0x3110: {",
+        replace: "  0x3121: {name: Grid missing, devices: pmm}\n  0x3110: {",
         expected: &["pmm: + error 3121h Grid missing: Grid missing [addition]"],
     },
     Case {
@@ -48,8 +48,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "an error gets a reset of its own",
         at: "errors:",
-        find: "  0x3120: {name: Grid under voltage, ",
-        replace: "  0x3120: {name: Grid under voltage, reset: power-off, ",
+        find: "  0x3120:\n    name: Grid under voltage\n",
+        replace: "  0x3120:\n    name: Grid under voltage\n    reset: power-off\n",
         expected: &[
             "pmm: ~ error 3120h Grid under voltage: reset: bit 7 of 3040h from 0 to 1, or an NMT reset command -> power-off [behaviour]",
         ],
@@ -144,15 +144,15 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "an error is reported as another kind, too",
         at: "errors:",
-        find: "  0x3120: {name: Grid under voltage,",
-        replace: "  0x3120: {register: [voltage, manufacturer], name: Grid under voltage,",
+        find: "  0x3120:\n    name: Grid under voltage\n",
+        replace: "  0x3120:\n    name: Grid under voltage\n    register: [voltage, manufacturer]\n",
         expected: &["pmm: ~ error 3120h Grid under voltage: register: 0x05 -> 0x85 [plc]"],
     },
     Case {
         name: "an error is reported as the kind of its class",
         at: "errors:",
-        find: "  0x3120: {name: Grid under voltage,",
-        replace: "  0x3120: {register: voltage, name: Grid under voltage,",
+        find: "  0x3120:\n    name: Grid under voltage\n",
+        replace: "  0x3120:\n    name: Grid under voltage\n    register: voltage\n",
         expected: &[],
     },
     Case {
@@ -167,8 +167,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "a priority comes",
         at: "errors:",
-        find: "  0x3120: {name: Grid under voltage,",
-        replace: "  0x3120: {priority: B, name: Grid under voltage,",
+        find: "  0x3120:\n    name: Grid under voltage\n",
+        replace: "  0x3120:\n    name: Grid under voltage\n    priority: B\n",
         expected: &["pmm: ~ error 3120h Grid under voltage: priority: none -> B [behaviour]"],
     },
 ];

@@ -118,8 +118,8 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "a special value where there was an ordinary one",
         at: "  0x3020:",
-        find: "unit: milliampere, access: rw,",
-        replace: "unit: milliampere, access: rw, special: {65535: not known},",
+        find: "unit: milliampere\n        access: rw\n",
+        replace: "unit: milliampere\n        access: rw\n        special: {65535: not known}\n",
         expected: &[
             "pmm: + 3020h.3 battery parameter.charging current, special value 0xFFFF: not known [firmware, behaviour]",
         ],
@@ -207,13 +207,11 @@ pub(crate) const CASES: &[Case] = &[
     Case {
         name: "a view of another entry",
         at: "  0x506C:",
-        find: "alias: 0x606C,",
-        replace: "alias: 0x6064, name: velocity actual value 16bit,",
+        find: "alias: 0x606C\n",
+        replace: "alias: 0x6064\n    name: velocity actual value 16bit\n",
         expected: &[
             "pmc: ~ 506Ch velocity actual value 16bit: name: actual velocity 16bit -> velocity actual value 16bit [plc, firmware]",
             "pmc: ~ 506Ch velocity actual value 16bit: unit: 1 PU/s, 1 PU/s is 0.01 °/s -> 1 PU, 1 PU is 0.01 ° [plc, firmware]",
-            "pmc: ~ 506Ch velocity actual value 16bit: search: pitch speed, pitch rate, actual pitch rate, blade speed -> pitch angle, actual pitch angle, blade angle, blade position… [documents]",
-            "pmc: ~ 506Ch velocity actual value 16bit, in de: search: Pitchgeschwindigkeit, Pitchrate, Istgeschwindigkeit, Blattge… -> Blattwinkel, Pitchwinkel, aktueller Blattwinkel, Istposition… [documents]",
             "pmc: ~ 506Ch velocity actual value 16bit: alias: 606Ch × 1, rounding down, outside saturate -> 6064h × 1, rounding down, outside saturate [plc]",
         ],
     },
